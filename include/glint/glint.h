@@ -1,0 +1,412 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Glint: an exact and fast ray tracer for course scenes and large analytic scenes.
+ *
+ * This is the only public header. It is C11 and can be included from C++.
+ *
+ * The life of a picture:
+ *
+ *     glint_scene_create      an empty scene, which the caller changes from one thread
+ *     glint_scene_load_file   ... filled from an XML file, or with glint_scene_add_...
+ *     glint_scene_commit      checks it and builds the tree; from here on it is immutable
+ *     glint_render            draws it into memory of the caller's
+ *     glint_image_save        writes PNG or PFM
+ *     glint_scene_destroy     frees everything the scene ever made
+ *
+ * Conventions:
+ *   - Every desc struct is made by its glint_..._desc_default function and then changed. A struct
+ *     that skipped the default is refused with GLINT_ERROR_ARGUMENT.
+ *   - Functions that can fail return a GlintStatus and fill *error when error is not null.
+ *   - Strings passed in are copied; strings handed to callbacks live until the callback returns.
+ *   - A null scene, or an id that the scene did not give out, is a mistake of the program: it is
+ *     refused with GLINT_ERROR_ARGUMENT where that costs nothing, and asserted where it does not.
+ *   - The library never prints, never exits, reads no environment variable and keeps no global
+ *     state that a caller could notice. Different scenes may be used from different threads.
+ *   - Coordinates are right-handed. Colours are linear RGB. Rows of pixels run top to bottom.
+ *   - The picture does not depend on the number of threads, the instruction set or the compiler,
+ *     to the last bit.
+ */
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(GLINT_SHARED) && defined(_WIN32)
+#define GLINT_API __declspec(dllimport)
+#elif defined(__GNUC__)
+#define GLINT_API __attribute__((visibility("default")))
+#else
+#define GLINT_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define GLINT_VERSION_MAJOR 0
+#define GLINT_VERSION_MINOR 1
+#define GLINT_VERSION_PATCH 0
+
+/* ---------------------------------------------------------------- status and errors */
+
+/* Every status: name and what it says. */
+#define GLINT_STATUS_LIST(X)                                                                       \
+    X(OK, "no error")                                                                              \
+    X(ERROR_ARGUMENT, "an argument of a call is out of range")                                     \
+    X(ERROR_SCENE, "the scene has errors")                                                         \
+    X(ERROR_FILE, "a file cannot be read or written")                                              \
+    X(ERROR_MEMORY, "not enough memory")                                                           \
+    X(ERROR_THREAD, "the system refused a thread")                                                 \
+    X(CANCELLED, "the caller cancelled")
+
+typedef enum GlintStatus {
+#define GLINT_STATUS_ENUM(name, text) GLINT_##name,
+    GLINT_STATUS_LIST(GLINT_STATUS_ENUM)
+#undef GLINT_STATUS_ENUM
+} GlintStatus;
+
+/* The first thing that went wrong. line and column count from 1 and are 0 where there is none;
+ * path names the scene file or the picture. Long texts are cut. */
+typedef struct GlintError {
+    GlintStatus status;
+    int line, column;
+    char path[256];
+    char message[256];
+} GlintError;
+
+/* What the status says, for example "not enough memory". Never null. */
+GLINT_API const char *glint_status_text(GlintStatus status);
+
+typedef enum GlintSeverity { GLINT_SEVERITY_ERROR, GLINT_SEVERITY_WARNING } GlintSeverity;
+
+/* One finding in a scene file. Loading reports all of them, not just the first. */
+typedef struct GlintDiagnostic {
+    GlintSeverity severity;
+    const char *path;    /* as given to the load function */
+    int64_t line;        /* from 1; 0: the file as a whole */
+    int64_t column;      /* from 1, in characters (code points); a tab is one */
+    const char *message; /* one sentence without a full stop */
+    const char *excerpt; /* the line, cut to a window round the place; null when there is none */
+    int caret;           /* index into excerpt, in characters, of the place */
+    int caret_length;    /* at least 1 */
+} GlintDiagnostic;
+
+typedef void (*GlintDiagnosticFn)(void *user, const GlintDiagnostic *diagnostic);
+
+/* Writes the diagnostic the way a compiler prints it, "path:line:column: error: message", the
+ * excerpt and a caret under the place, each line ended by a newline. At most size bytes are
+ * written, always zero-terminated when size > 0. Returns the length without the cut. */
+GLINT_API size_t glint_diagnostic_format(
+    const GlintDiagnostic *diagnostic, char *buffer, size_t size);
+
+/* ---------------------------------------------------------------- callbacks */
+
+/* Memory. new_size 0 frees and returns null; pointer null allocates; otherwise like realloc.
+ * Must be safe to call from several threads. Blocks need the alignment of malloc. */
+typedef struct GlintAllocator {
+    void *(*reallocate)(void *user, void *pointer, size_t old_size, size_t new_size);
+    void *user;
+} GlintAllocator;
+
+typedef enum GlintPhase {
+    GLINT_PHASE_READ,  /* parsing the scene file */
+    GLINT_PHASE_BUILD, /* building the tree */
+    GLINT_PHASE_TRACE, /* drawing */
+    GLINT_PHASE_WRITE  /* encoding and writing the picture */
+} GlintPhase;
+
+/* Progress and cancel, both optional and both called only on the thread that made the call, many
+ * times a second. fraction runs from 0 to 1; it is negative when the end is not known (a stream).
+ * When cancelled returns true the running call returns GLINT_CANCELLED soon (within a few tens of
+ * milliseconds). */
+typedef struct GlintMonitor {
+    void (*progress)(void *user, GlintPhase phase, double fraction);
+    bool (*cancelled)(void *user);
+    void *user;
+} GlintMonitor;
+
+/* ---------------------------------------------------------------- dialects and instruction sets */
+
+/* The years of the course differ in their rules; docs/scene-format.md lists them. */
+typedef enum GlintDialect {
+    GLINT_DIALECT_AUTO, /* found from the content of the file; built scenes: GLINT */
+    GLINT_DIALECT_2011,
+    GLINT_DIALECT_2012,
+    GLINT_DIALECT_MATERIAL,
+    GLINT_DIALECT_2013,
+    GLINT_DIALECT_2017,
+    GLINT_DIALECT_2017B,
+    GLINT_DIALECT_2018,
+    GLINT_DIALECT_2018B,
+    GLINT_DIALECT_2019,
+    GLINT_DIALECT_GLINT, /* the rules without any year's quirks */
+    GLINT_DIALECT_COUNT
+} GlintDialect;
+
+/* The name used in files and options ("2012", "glint", ...); null for a value out of range. */
+GLINT_API const char *glint_dialect_name(GlintDialect dialect);
+/* The opposite. False, and *dialect untouched, when there is no such name. */
+GLINT_API bool glint_dialect_from_name(const char *name, GlintDialect *dialect);
+
+/* The instruction sets this build can use on this machine, fastest first: "avx512", "avx2",
+ * "sse2", "portable". Null at index >= the number of them. */
+GLINT_API const char *glint_isa_name(int index);
+
+/* "0.1.0" */
+GLINT_API const char *glint_version_text(void);
+
+/* ---------------------------------------------------------------- scene */
+
+typedef struct GlintScene GlintScene;
+
+typedef struct GlintShaderId { uint32_t index1; } GlintShaderId;   /* zero: the default shader */
+typedef struct GlintSurfaceId { uint32_t index1; } GlintSurfaceId; /* zero: none */
+
+typedef struct GlintSceneDesc {
+    GlintDialect dialect;             /* default AUTO; any other value overrides the file's */
+    int thread_count;                 /* 0 (default): one per core; 1: only the caller's thread */
+    const char *isa;                  /* null (default): the fastest; or a glint_isa_name */
+    size_t memory_limit;              /* bytes; 0 (default): nine tenths of the machine's */
+    const GlintAllocator *allocator;  /* null (default): the C library's; copied */
+    GlintDiagnosticFn diagnostic;     /* null (default): findings go only to GlintError */
+    void *diagnostic_user;
+    int cookie;                       /* private */
+} GlintSceneDesc;
+
+GLINT_API GlintSceneDesc glint_scene_desc_default(void);
+
+/* Makes an empty scene in *scene. Errors: ARGUMENT (unknown isa, negative thread count), MEMORY. */
+GLINT_API GlintStatus glint_scene_create(
+    const GlintSceneDesc *desc, GlintScene **scene, GlintError *error);
+
+/* Frees the scene and all it holds. Null is allowed. */
+GLINT_API void glint_scene_destroy(GlintScene *scene);
+
+/* ---- from XML */
+
+/* Reads a scene file into an empty scene. Every error of the file is reported through the
+ * scene's diagnostic callback; the first is also left in *error. After an error the scene can
+ * only be destroyed. Errors: SCENE, FILE, MEMORY, CANCELLED. monitor may be null. */
+GLINT_API GlintStatus glint_scene_load_file(
+    GlintScene *scene, const char *path, const GlintMonitor *monitor, GlintError *error);
+
+/* The same from memory. name stands for the path in messages and may be a path: files that the
+ * scene names are looked up relative to it. The bytes are not kept. */
+GLINT_API GlintStatus glint_scene_load_memory(GlintScene *scene, const void *bytes, size_t size,
+    const char *name, const GlintMonitor *monitor, GlintError *error);
+
+/* The same from a stream. read fills at most size bytes and returns how many; 0 is the end and a
+ * negative value a failure (GLINT_ERROR_FILE). */
+typedef int64_t (*GlintReadFn)(void *user, void *buffer, size_t size);
+GLINT_API GlintStatus glint_scene_load_stream(GlintScene *scene, GlintReadFn read, void *user,
+    const char *name, const GlintMonitor *monitor, GlintError *error);
+
+/* ---- by calls */
+
+typedef struct GlintImageDesc {
+    int width, height;    /* pixels; each at least 1, at most 2^28 together; default 512 x 512 */
+    int samples;          /* per pixel, drawn on a regular n x n grid, n = round(sqrt); default 1 */
+    double back_color[3]; /* linear; default black */
+    double exposure;      /* factor of every pixel; <= 0 is ignored; default 1 */
+    int cookie;
+} GlintImageDesc;
+
+typedef enum GlintCameraType { GLINT_CAMERA_PERSPECTIVE, GLINT_CAMERA_PARALLEL } GlintCameraType;
+
+/* The window of view_width x view_height stands at view_point + projection_distance along
+ * view_direction, tilted so that projection_normal is its normal. The parallel camera's window is
+ * centred at view_point. Lengths of the vectors do not matter. */
+typedef struct GlintCameraDesc {
+    GlintCameraType type;
+    double view_point[3];        /* 0 0 0 */
+    double view_direction[3];    /* 0 0 -1 */
+    double view_up[3];           /* 0 1 0; not parallel to the projection normal */
+    double projection_normal[3]; /* 0 0 0 (default): opposite to view_direction */
+    double projection_distance;  /* > 0; 1 */
+    double view_width;           /* > 0; 1 */
+    double view_height;          /* > 0; 1 */
+    int cookie;
+} GlintCameraDesc;
+
+typedef enum GlintShaderType {
+    GLINT_SHADER_LAMBERTIAN,
+    GLINT_SHADER_PHONG,      /* Blinn-Phong: the exponent acts on normal . half vector */
+    GLINT_SHADER_RGB_NORMALS /* (normal + 1) / 2 */
+} GlintShaderType;
+
+typedef struct GlintShaderDesc {
+    GlintShaderType type;
+    double diffuse_color[3];  /* 1 1 1 */
+    double specular_color[3]; /* 1 1 1 */
+    double exponent;          /* 1 */
+    int cookie;
+} GlintShaderDesc;
+
+typedef enum GlintLightType {
+    GLINT_LIGHT_POINT,    /* with hard shadows */
+    GLINT_LIGHT_AMBIENT,  /* adds intensity * diffuse colour everywhere */
+    GLINT_LIGHT_CONSTANT, /* adds the diffuse colour everywhere */
+    GLINT_LIGHT_NORMAL    /* adds (normal + 1) / 2 everywhere */
+} GlintLightType;
+
+typedef enum GlintFalloff {
+    GLINT_FALLOFF_DIALECT, /* as the dialect has it; GLINT: none */
+    GLINT_FALLOFF_NONE,
+    GLINT_FALLOFF_INVERSE_SQUARE
+} GlintFalloff;
+
+typedef struct GlintLightDesc {
+    GlintLightType type;
+    double position[3];  /* 0 0 0 */
+    double intensity[3]; /* 1 1 1 */
+    GlintFalloff falloff;
+    int cookie;
+} GlintLightDesc;
+
+typedef enum GlintSurfaceType {
+    GLINT_SURFACE_SPHERE,   /* center, radius */
+    GLINT_SURFACE_BOX,      /* point_a, point_b: two opposite corners */
+    GLINT_SURFACE_CYLINDER, /* center, radius, height; axis along z, closed */
+    GLINT_SURFACE_CONE,     /* center, radius (in the centre plane), height, tip_z; closed */
+    GLINT_SURFACE_PLANE,    /* point_a, normal; infinite */
+    GLINT_SURFACE_DISC,     /* center, normal, radius */
+    GLINT_SURFACE_GROUP     /* children under transform */
+} GlintSurfaceType;
+
+typedef struct GlintSurfaceDesc {
+    GlintSurfaceType type;
+    GlintShaderId shader;    /* zero: Lambertian with all defaults; a group has none */
+    GlintSurfaceId parent;   /* the group it belongs to; zero: the scene */
+    double center[3];        /* 0 0 0 */
+    double radius;           /* > 0; 1 */
+    double height;           /* > 0; 1 */
+    double tip_z;            /* z of the apex; not center[2]; 0 */
+    double point_a[3];       /* 0 0 0 */
+    double point_b[3];       /* 0 0 0 */
+    double normal[3];        /* 0 0 1; any length but zero */
+    double transform[3][4];  /* group: rows of an invertible affine matrix; identity */
+    int cookie;
+} GlintSurfaceDesc;
+
+GLINT_API GlintImageDesc glint_image_desc_default(void);
+GLINT_API GlintCameraDesc glint_camera_desc_default(void);
+GLINT_API GlintShaderDesc glint_shader_desc_default(void);
+GLINT_API GlintLightDesc glint_light_desc_default(void);
+GLINT_API GlintSurfaceDesc glint_surface_desc_default(GlintSurfaceType type);
+
+/* Each checks its desc and copies it. Errors: ARGUMENT (with the field named in error->message;
+ * also when the scene is committed already), MEMORY. The id pointers may be null. */
+GLINT_API GlintStatus glint_scene_set_image(
+    GlintScene *scene, const GlintImageDesc *desc, GlintError *error);
+GLINT_API GlintStatus glint_scene_set_camera(
+    GlintScene *scene, const GlintCameraDesc *desc, GlintError *error);
+GLINT_API GlintStatus glint_scene_add_light(
+    GlintScene *scene, const GlintLightDesc *desc, GlintError *error);
+GLINT_API GlintStatus glint_scene_add_shader(
+    GlintScene *scene, const GlintShaderDesc *desc, GlintShaderId *id, GlintError *error);
+GLINT_API GlintStatus glint_scene_add_surface(
+    GlintScene *scene, const GlintSurfaceDesc *desc, GlintSurfaceId *id, GlintError *error);
+
+/* ---------------------------------------------------------------- commit, render, trace */
+
+/* Builds the tree. After it the scene is immutable and may be traced from many threads at once.
+ * Errors: ARGUMENT (no camera or image, committed twice), SCENE (too many surfaces), MEMORY,
+ * THREAD, CANCELLED. monitor may be null. */
+GLINT_API GlintStatus glint_scene_commit(
+    GlintScene *scene, const GlintMonitor *monitor, GlintError *error);
+
+typedef struct GlintSceneInfo {
+    GlintDialect dialect; /* the one in force; AUTO before commit when it is not known yet */
+    int width, height, samples;
+    uint64_t surface_count; /* as traced: groups spread out */
+    uint32_t light_count, shader_count;
+} GlintSceneInfo;
+
+GLINT_API void glint_scene_info(const GlintScene *scene, GlintSceneInfo *info);
+
+typedef struct GlintRenderDesc {
+    int width, height;               /* 0 (default): the scene's */
+    int crop_x, crop_y;              /* top left corner of the part to draw; 0 */
+    int crop_width, crop_height;     /* 0 (default): all that is right of and below the corner */
+    const GlintMonitor *monitor;     /* null */
+    int cookie;
+} GlintRenderDesc;
+
+GLINT_API GlintRenderDesc glint_render_desc_default(void);
+
+/* Draws into pixels: crop_width * crop_height * 3 floats, linear RGB, top row first, no padding.
+ * One call at a time per scene. Errors: ARGUMENT, MEMORY, CANCELLED (pixels are then partly
+ * drawn). */
+GLINT_API GlintStatus glint_render(
+    GlintScene *scene, const GlintRenderDesc *desc, float *pixels, GlintError *error);
+
+typedef struct GlintRay {
+    double origin[3];
+    double direction[3];   /* any length but zero; t counts in this length */
+    double t_min, t_max;   /* open interval; t_max may be INFINITY */
+} GlintRay;
+
+typedef struct GlintHit {
+    double t;
+    double point[3];
+    double normal[3];       /* unit, outward, never turned toward the ray */
+    GlintSurfaceId surface; /* in the order in which surfaces were added, groups not counted */
+    GlintShaderId shader;
+} GlintHit;
+
+/* The nearest hit of a ray in a committed scene. False: none, and *hit is untouched. Any number of
+ * threads may call it. Arguments are not checked in release builds. */
+GLINT_API bool glint_trace(const GlintScene *scene, const GlintRay *ray, GlintHit *hit);
+
+/* Whether anything is hit. The same rules. */
+GLINT_API bool glint_occluded(const GlintScene *scene, const GlintRay *ray);
+
+/* What the phases took and found so far. Seconds are wall time; counts are of the last render. */
+typedef struct GlintStats {
+    double read_seconds, build_seconds, trace_seconds;
+    uint64_t read_bytes;
+    uint64_t camera_rays, shadow_rays;
+    uint64_t primitive_count, node_count, leaf_count, tree_bytes;
+    double sah_cost;      /* expected node visits plus primitive block tests of a random ray */
+    uint64_t memory_peak; /* bytes asked of the allocator at the same time */
+    int thread_count;
+    const char *isa;
+} GlintStats;
+
+GLINT_API void glint_scene_stats(const GlintScene *scene, GlintStats *stats);
+
+/* ---------------------------------------------------------------- pictures */
+
+typedef struct GlintImage {
+    int width, height;
+    const float *pixels; /* width * height * 3, as glint_render left them */
+} GlintImage;
+
+typedef struct GlintSaveDesc {
+    const char *title;           /* text chunk "Title", normally the scene's name; null: none */
+    int thread_count;            /* 0 (default): one per core */
+    const GlintMonitor *monitor; /* null */
+    int cookie;
+} GlintSaveDesc;
+
+GLINT_API GlintSaveDesc glint_save_desc_default(void);
+
+/* Writes path, in the format of its extension: .png (8 bits, gamma 2.2) or .pfm (linear float). The
+ * file appears whole or not at all: it is written under a temporary name, then renamed. Errors:
+ * ARGUMENT (extension), FILE, MEMORY, CANCELLED. */
+GLINT_API GlintStatus glint_image_save(
+    const GlintImage *image, const char *path, const GlintSaveDesc *desc, GlintError *error);
+
+/* Encodes a PNG and hands its bytes to sink, in order. sink returns false to stop
+ * (GLINT_ERROR_FILE). */
+typedef bool (*GlintSinkFn)(void *user, const void *bytes, size_t size);
+GLINT_API GlintStatus glint_image_encode_png(const GlintImage *image, const GlintSaveDesc *desc,
+    GlintSinkFn sink, void *user, GlintError *error);
+
+/* The 8-bit values that the PNG would hold: width * height * 3 bytes. */
+GLINT_API void glint_image_to_rgb8(const GlintImage *image, uint8_t *rgb);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+#define _GNU_SOURCE /* sched_getaffinity */
+#include "port/machine.h"
+
+#include <sched.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+/* A number of bytes in the first line of a small file, or SIZE_MAX ("max", no such file). */
+static size_t read_limit(const char *path) {
+    FILE *file = fopen(path, "re");
+    if (file == NULL) return SIZE_MAX;
+    unsigned long long value;
+    size_t limit = fscanf(file, "%llu", &value) == 1 && value < SIZE_MAX ? (size_t)value : SIZE_MAX;
+    fclose(file);
+    return limit;
+}
+
+size_t gi_machine_memory(void) {
+    long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
+    size_t size = pages > 0 && page_size > 0 ? (size_t)pages * (size_t)page_size : SIZE_MAX / 2;
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur < size) size = (size_t)limit.rlim_cur;
+    size_t group = read_limit("/sys/fs/cgroup/memory.max");
+    return group < size ? group : size;
+}
+
+int gi_machine_core_count(void) {
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set) == 0) {
+        int count = CPU_COUNT(&set);
+        if (count > 0) return count;
+    }
+    long count = sysconf(_SC_NPROCESSORS_ONLN);
+    return count > 0 ? (int)count : 1;
+}
+
+double gi_machine_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+bool gi_machine_has(GiMachineFeature feature) {
+#if (defined(__x86_64__) || defined(__i386__)) && defined(__GNUC__)
+    switch (feature) {
+    case GI_MACHINE_SSE2: return __builtin_cpu_supports("sse2");
+    case GI_MACHINE_AVX2:
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+               __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+               __builtin_cpu_supports("popcnt");
+    case GI_MACHINE_AVX512:
+        return gi_machine_has(GI_MACHINE_AVX2) && __builtin_cpu_supports("avx512f") &&
+               __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512bw") &&
+               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    }
+#endif
+    (void)feature;
+    return false;
+}

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT
+ * Runs all tests, or those whose name contains one of the arguments.
+ *   glint-tests [--source DIR] [--list] [NAME...] */
+#define _XOPEN_SOURCE 700
+#include "test.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define ROOMS(X) X(base) X(math) X(reader) X(shape) X(kernel) X(image) X(render) X(api)
+
+#define DECLARE(room) extern const GiTest tests_##room[];
+ROOMS(DECLARE)
+
+static const struct { const char *room; const GiTest *tests; } rooms[] = {
+#define ENTRY(room) {#room, tests_##room},
+    ROOMS(ENTRY)};
+
+static const char *source_dir = ".";
+static char scratch_dir[] = "/tmp/glint-tests-XXXXXX";
+static int failure_count;
+static const char *skip_reason;
+
+void test_fail(const char *file, int line, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    if (failure_count++ < 20) {
+        printf("  %s:%d: ", file, line);
+        vprintf(format, arguments);
+        printf("\n");
+    }
+    va_end(arguments);
+}
+
+void test_skip(const char *reason) { skip_reason = reason; }
+
+void test_check_text(
+    const char *file, int line, const char *what, const char *actual, const char *expected) {
+    if (actual == NULL || strcmp(actual, expected) != 0) {
+        test_fail(file, line, "%s is \"%s\", not \"%s\"", what, actual ? actual : "(null)", expected);
+    }
+}
+
+const char *test_source_dir(void) { return source_dir; }
+
+const char *test_scratch_dir(void) { return scratch_dir; }
+
+const char *test_shared_dir(void) {
+    static char path[4096];
+    struct stat info;
+    snprintf(path, sizeof path, "%s/../shared", source_dir);
+    return stat(path, &info) == 0 ? path : NULL;
+}
+
+static bool wanted(const char *name, int count, char **patterns) {
+    for (int i = 0; i < count; i++) {
+        if (strstr(name, patterns[i]) != NULL) return true;
+    }
+    return count == 0;
+}
+
+int main(int argc, char **argv) {
+    int first = 1;
+    bool list = false;
+    for (; first < argc && strncmp(argv[first], "--", 2) == 0; first++) {
+        if (strcmp(argv[first], "--source") == 0 && first + 1 < argc) source_dir = argv[++first];
+        if (strcmp(argv[first], "--list") == 0) list = true;
+    }
+    setvbuf(stdout, NULL, _IOLBF, 0);
+    if (mkdtemp(scratch_dir) == NULL) {
+        perror(scratch_dir);
+        return 3;
+    }
+    int passed = 0, failed = 0, skipped = 0;
+    for (size_t r = 0; r < sizeof rooms / sizeof rooms[0]; r++) {
+        for (const GiTest *test = rooms[r].tests; test->name != NULL; test++) {
+            char name[256];
+            snprintf(name, sizeof name, "%s.%s", rooms[r].room, test->name);
+            if (!wanted(name, argc - first, argv + first)) continue;
+            if (list) {
+                puts(name);
+                continue;
+            }
+            failure_count = 0;
+            skip_reason = NULL;
+            test->run();
+            if (failure_count > 0) {
+                failed++;
+                printf("FAIL %s\n", name);
+            } else if (skip_reason != NULL) {
+                skipped++;
+                printf("skip %s: %s\n", name, skip_reason);
+            } else {
+                passed++;
+                printf("ok   %s\n", name);
+            }
+        }
+    }
+    char command[64];
+    snprintf(command, sizeof command, "rm -rf %s", scratch_dir);
+    if (system(command) != 0) perror(command);
+    if (!list) printf("%d passed, %d failed, %d skipped\n", passed, failed, skipped);
+    return failed > 0;
+}
