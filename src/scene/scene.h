@@ -31,12 +31,6 @@ typedef struct GiLight {
     GiVec position, intensity;
 } GiLight;
 
-/* What a shape is to the scene, beside its numbers. */
-typedef struct GiShapeInfo {
-    uint32_t shader; /* index; 0 is the default shader */
-    uint32_t order;  /* its number in document order, groups not counted; ties go to the lower */
-} GiShapeInfo;
-
 typedef enum GiTransformStepKind {
     GI_STEP_TRANSLATE,
     GI_STEP_ROTATE, /* degrees about x, y, z */

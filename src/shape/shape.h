@@ -51,9 +51,68 @@ typedef struct GiDisc {
 
 typedef struct GiPlane { GiVec point, normal; /* unit */ } GiPlane;
 
+/* What a shape is to the scene, beside its numbers. */
+typedef struct GiShapeInfo {
+    uint32_t shader; /* index; 0 is the default shader */
+    uint32_t order;  /* its number in document order, groups not counted; ties go to the lower */
+} GiShapeInfo;
+
 typedef struct GiPlacement {
     GiShapeRef shape; /* not itself placed */
     uint32_t transform;
 } GiPlacement;
 
 typedef struct GiTransform { GiAffine to_world, to_object; } GiTransform;
+
+/* The arrays that refs index, with the one rule that changes where rays meet shapes. */
+typedef struct GiShapes {
+    const GiSphere *spheres;
+    const GiBox *boxes;
+    const GiCone *cones;
+    const GiDisc *discs;
+    const GiPlane *planes;
+    const GiPlacement *placements;
+    const GiTransform *transforms;
+    const GiShapeInfo *info[GI_SHAPE_KIND_COUNT]; /* parallel to the arrays of each kind */
+    bool entering_only; /* boxes do without their exits, cylinders without exits through caps */
+} GiShapes;
+
+/* Height of the apex above the centre plane; infinite for a cylinder. */
+static inline double gi_cone_apex(const GiCone *cone) { return -cone->radius / cone->slope; }
+
+/* The shape itself of a ref that may be placed. */
+static inline GiShapeRef gi_shape_unplaced(const GiShapes *shapes, GiShapeRef ref) {
+    return gi_shape_kind(ref) == GI_SHAPE_PLACED ? shapes->placements[gi_shape_index(ref)].shape
+                                                 : ref;
+}
+
+static inline const GiShapeInfo *gi_shape_info(const GiShapes *shapes, GiShapeRef ref) {
+    ref = gi_shape_unplaced(shapes, ref);
+    return &shapes->info[gi_shape_kind(ref)][gi_shape_index(ref)];
+}
+
+/* Whether a goes before b where a ray meets both at the same t. */
+static inline bool gi_shape_before(const GiShapes *shapes, GiShapeRef a, GiShapeRef b) {
+    uint32_t order_a = gi_shape_info(shapes, a)->order, order_b = gi_shape_info(shapes, b)->order;
+    return order_a != order_b ? order_a < order_b : a.bits < b.bits;
+}
+
+/* The smallest box round a shape; infinite for a plane. */
+GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref);
+
+/* The point where a ray (origin, direction) met the shape at t, moved onto the surface to the last
+ * bits, and the unit normal there, outward. A ray that starts at the point may find the same
+ * surface again within the distance `error`, by rounding alone: the numbers the point and the test
+ * are made of, times GI_SURFACE_ERROR. second_nappe_geometric: see GiRules.cone_geometric. */
+typedef struct GiSurfacePoint {
+    GiVec point, normal;
+    double error;
+} GiSurfacePoint;
+
+/* 2048 roundings. A point on a surface and the test of a ray from it take about forty, and where
+ * the ray leaves at a slant the error along it is larger by 1 / cosine: 2048 covers all but the
+ * last degree, where the light that a wrong hit would take away is next to nothing. */
+#define GI_SURFACE_ERROR 0x1p-42
+
+GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref, GiVec origin, GiVec direction,
+    double t, bool second_nappe_geometric);

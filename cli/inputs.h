@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT
+ * Which scenes are drawn, and where their pictures go. */
+#pragma once
+
+#include "options.h"
+
+typedef struct CliJob {
+    char *scene;   /* a path, or "-" */
+    char *picture; /* a path that ends in .png or .pfm */
+} CliJob;
+
+typedef struct CliJobs {
+    CliJob *items;
+    int count, capacity;
+} CliJobs;
+
+/* Turns the arguments into jobs, folders spread out. Says what is wrong; with CLI_INPUT the jobs
+ * that are right can still be done. */
+CliStatus cli_jobs_init(CliJobs *jobs, const CliOptions *options);
+void cli_jobs_reset(CliJobs *jobs);
+
+bool cli_job_reads_standard_input(const CliJob *job);
+
+/* What messages and pictures call the scene: its path, or "stdin". */
+const char *cli_job_name(const CliJob *job);
+
+/* The part of a path behind the last slash. */
+const char *cli_path_base(const char *path);

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT
+ * Messages. The library lays a diagnostic out; here it only gets its colours. */
+#define _POSIX_C_SOURCE 200809L
+#include "message.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define BOLD  "\033[1m"
+#define RED   "\033[1;31m"
+#define AMBER "\033[1;33m"
+#define GREEN "\033[1;32m"
+#define PLAIN "\033[0m"
+
+bool cli_message_on_terminal(void) {
+    const char *terminal = getenv("TERM");
+    return isatty(STDERR_FILENO) && terminal != NULL && strcmp(terminal, "dumb") != 0;
+}
+
+/* https://no-color.org: set and not empty. */
+static bool colours_wanted(void) {
+    const char *no_color = getenv("NO_COLOR");
+    return cli_message_on_terminal() && (no_color == NULL || no_color[0] == '\0');
+}
+
+CLI_PRINTF(1, 0) static void say(const char *format, va_list arguments) {
+    fputs("glint: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+}
+
+void cli_message_error(const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    say(format, arguments);
+    va_end(arguments);
+}
+
+CliStatus cli_message_usage(const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    say(format, arguments);
+    va_end(arguments);
+    fputs("try 'glint --help'\n", stderr);
+    return CLI_USAGE;
+}
+
+static void put_coloured(const char *colour, const char *text, size_t size) {
+    fputs(colour, stderr);
+    fwrite(text, 1, size, stderr);
+    fputs(PLAIN, stderr);
+}
+
+/* "path:line:column: error: message": the place bold, the severity red or amber. */
+static void put_heading(const GlintDiagnostic *diagnostic, const char *line, size_t size) {
+    bool error = diagnostic->severity == GLINT_SEVERITY_ERROR;
+    const char *word = error ? "error:" : "warning:";
+    size_t place = strlen(diagnostic->path), word_size = strlen(word);
+    /* The path may itself contain the word, so the search begins behind it. */
+    while (place + word_size <= size && strncmp(line + place, word, word_size) != 0) place++;
+    if (place + word_size > size) {
+        fwrite(line, 1, size, stderr);
+        return;
+    }
+    put_coloured(BOLD, line, place);
+    put_coloured(error ? RED : AMBER, line + place, word_size);
+    fwrite(line + place + word_size, 1, size - place - word_size, stderr);
+}
+
+static void put_in_colour(const GlintDiagnostic *diagnostic, const char *text) {
+    for (int row = 0; *text != '\0'; row++) {
+        size_t size = strcspn(text, "\n");
+        if (row == 0) {
+            put_heading(diagnostic, text, size);
+        } else if (row == 1) {
+            fwrite(text, 1, size, stderr);
+        } else {
+            put_coloured(GREEN, text, size);
+        }
+        fputc('\n', stderr);
+        text += size + (text[size] == '\n');
+    }
+}
+
+/* A scene from a stranger must not steer the terminal. */
+static void disarm(char *text) {
+    for (; *text != '\0'; text++) {
+        unsigned char byte = (unsigned char)*text;
+        if ((byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f) *text = '?';
+    }
+}
+
+void cli_message_diagnostic(const GlintDiagnostic *diagnostic) {
+    size_t size = glint_diagnostic_format(diagnostic, NULL, 0) + 1;
+    char *text = malloc(size);
+    if (text == NULL) {
+        fprintf(stderr, "%s: %s\n", diagnostic->path, diagnostic->message);
+        return;
+    }
+    glint_diagnostic_format(diagnostic, text, size);
+    if (colours_wanted()) {
+        disarm(text);
+        put_in_colour(diagnostic, text);
+    } else {
+        fputs(text, stderr);
+    }
+    free(text);
+}
+
+CliStatus cli_message_flush_output(void) {
+    if (fflush(stdout) == 0 && !ferror(stdout)) return CLI_OK;
+    int reason = errno;
+    clearerr(stdout);
+    if (reason == EPIPE) return CLI_OK;
+    cli_message_error("cannot write to standard output: %s", strerror(reason));
+    return CLI_MACHINE;
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT
+ * What the program says on standard error. */
+#pragma once
+
+#include "glint/glint.h"
+
+#include "status.h"
+
+#if defined(__GNUC__)
+#define CLI_PRINTF(format_index, first_index)                                                      \
+    __attribute__((format(printf, format_index, first_index)))
+#else
+#define CLI_PRINTF(format_index, first_index)
+#endif
+
+/* Whether standard error is a terminal that understands control sequences. */
+bool cli_message_on_terminal(void);
+
+/* "glint: message" */
+CLI_PRINTF(1, 2) void cli_message_error(const char *format, ...);
+
+/* The same, then where to find help. Returns CLI_USAGE. */
+CLI_PRINTF(1, 2) CliStatus cli_message_usage(const char *format, ...);
+
+/* A finding in a scene, in colour on a terminal unless NO_COLOR is set. */
+void cli_message_diagnostic(const GlintDiagnostic *diagnostic);
+
+/* Writes out what standard output still holds. A reader that has gone away is no mistake; a full
+ * disk is one, and is reported: CLI_MACHINE. */
+CliStatus cli_message_flush_output(void);

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT
+ * The public functions for pictures: arguments are checked here, the work is done in png.c, pfm.c
+ * and gamma.c. */
+#include "base/assert.h"
+#include "base/cookie.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "image/gamma.h"
+#include "image/pfm.h"
+#include "image/png.h"
+#include "port/file.h"
+
+#include <string.h>
+
+enum { PIXEL_LIMIT = 1 << 28 };
+
+GlintSaveDesc glint_save_desc_default(void) { return (GlintSaveDesc){.cookie = GI_COOKIE}; }
+
+static bool is_sound(const GlintImage *image) {
+    return image != NULL && image->pixels != NULL && image->width >= 1 && image->height >= 1 &&
+           image->width <= PIXEL_LIMIT / image->height;
+}
+
+static GlintStatus check(const GlintImage *image, const GlintSaveDesc *desc, GlintError *error) {
+    const char *fault = NULL;
+    if (desc == NULL || desc->cookie != GI_COOKIE) {
+        fault = "the save desc was not made by glint_save_desc_default";
+    } else if (desc->thread_count < 0) {
+        fault = "thread_count is negative";
+    } else if (image == NULL || image->pixels == NULL) {
+        fault = "there is no picture";
+    } else if (!is_sound(image)) {
+        fault = "width and height must be at least 1, their product at most 2^28";
+    }
+    return fault == NULL ? GLINT_OK : gi_error_set(error, GLINT_ERROR_ARGUMENT, "%s", fault);
+}
+
+typedef enum Format { FORMAT_NONE, FORMAT_PNG, FORMAT_PFM } Format;
+
+/* From the extension, in letters of either case. */
+static Format format_of(const char *path) {
+    size_t length = strlen(path);
+    if (length < 4) return FORMAT_NONE;
+    char extension[5] = "";
+    for (int i = 0; i < 4; i++) {
+        char c = path[length - 4 + (size_t)i];
+        extension[i] = c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+    }
+    return strcmp(extension, ".png") == 0   ? FORMAT_PNG
+           : strcmp(extension, ".pfm") == 0 ? FORMAT_PFM
+                                            : FORMAT_NONE;
+}
+
+static bool to_file(void *user, const void *bytes, size_t size) {
+    return gi_file_write(user, bytes, size);
+}
+
+GlintStatus glint_image_save(
+    const GlintImage *image, const char *path, const GlintSaveDesc *desc, GlintError *error) {
+    GlintStatus status = check(image, desc, error);
+    if (status != GLINT_OK) return status;
+    if (path == NULL) return gi_error_set(error, GLINT_ERROR_ARGUMENT, "there is no path");
+    Format format = format_of(path);
+    if (format == FORMAT_NONE) {
+        return gi_error_set_path(
+            error, GLINT_ERROR_ARGUMENT, path, "the name of a picture must end in .png or .pfm");
+    }
+    GiMemory memory;
+    gi_memory_init(&memory, NULL, 0);
+    GiFileWriter file;
+    status = gi_file_write_begin(&file, path, error);
+    if (status != GLINT_OK) return status;
+    if (format == FORMAT_PNG) {
+        status = gi_png_encode(
+            &memory, image, desc->title, desc->thread_count, desc->monitor, to_file, &file, error);
+    } else {
+        status = gi_pfm_encode(&memory, image, desc->monitor, to_file, &file, error);
+    }
+    if (status == GLINT_OK || status == GLINT_ERROR_FILE) {
+        /* The only sink is the file, and commit knows better than the encoder why it stopped. */
+        return gi_file_write_commit(&file, error);
+    }
+    gi_file_write_abandon(&file);
+    return status;
+}
+
+GlintStatus glint_image_encode_png(const GlintImage *image, const GlintSaveDesc *desc,
+    GlintSinkFn sink, void *user, GlintError *error) {
+    GlintStatus status = check(image, desc, error);
+    if (status != GLINT_OK) return status;
+    if (sink == NULL) return gi_error_set(error, GLINT_ERROR_ARGUMENT, "there is no sink");
+    GiMemory memory;
+    gi_memory_init(&memory, NULL, 0);
+    return gi_png_encode(
+        &memory, image, desc->title, desc->thread_count, desc->monitor, sink, user, error);
+}
+
+void glint_image_to_rgb8(const GlintImage *image, uint8_t *rgb) {
+    GI_ASSERT(is_sound(image) && rgb != NULL);
+    gi_gamma_encode(image->pixels, 3 * (size_t)image->width * (size_t)image->height, rgb);
+}

@@ -1,0 +1,491 @@
+/* SPDX-License-Identifier: MIT
+ * Many rays through one point, traced together. Part of kernel.c.
+ *
+ * In the plane at depth 1 along the bundle's axis w every ray is a point (a, b), sixteen of them (a
+ * packet) a rectangle, and all of them a larger rectangle: a frustum of four planes, against which
+ * nodes are tested once for all rays. A shape is a rectangle too, with a nearest depth; five
+ * comparisons for all packets at once tell which packets it may concern, and only those rays are
+ * tested exactly. (After Reshetov 2005, Overbeck 2008 and Davidovic 2012.)
+ *
+ *        b |   +---------------- tile
+ *          |   | +--+ packet
+ *          |   | |  |   ( shape's rectangle )
+ *          +------------------------- a
+ *
+ * Staying below the error bound of layout.h: boxes are grown by 2^-19 of their distance from the
+ * centre of kernel space; here they are moved so that the apex is the origin, and grown by another
+ * 2^-19 of the apex' own distance. Together that is at least 32 roundings of their distance p from
+ * the apex. Plane distances and rectangles are sums and quotients of a dozen roundings of p, so
+ * they err to the safe side. The rays' own (a, b) are computed in double and widened. */
+#pragma once
+
+typedef struct Packets {
+    /* Rectangle, widened; farthest depth that matters, negative when no ray is left. */
+    float a0[GI_PACKET_COUNT], a1[GI_PACKET_COUNT], b0[GI_PACKET_COUNT], b1[GI_PACKET_COUNT];
+    float far[GI_PACKET_COUNT];
+} Packets;
+
+typedef struct Frustum {
+    float apex[3], margin;
+    float axis[3][3]; /* u, v, w as rows */
+    float plane[4][3];
+    float a0, a1, b0, b1, far;
+} Frustum;
+
+typedef struct Tile {
+    const GiTrace *trace;
+    GiBundle *bundle;
+    bool any;
+    unsigned alive[GI_PACKET_COUNT]; /* any: bits of rays not yet stopped */
+    Packets packets;
+    Frustum frustum;
+    double scale;
+} Tile;
+
+/* ---------------------------------------------------------------- set-up */
+
+/* Rays that fill up the last packet: copies of the first whose interval is empty. */
+static inline void tile_pad(GiBundle *bundle) {
+    int end = (bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE * GI_PACKET_SIZE;
+    for (int i = bundle->count; i < end; i++) {
+        bundle->ox[i] = bundle->ox[0];
+        bundle->oy[i] = bundle->oy[0];
+        bundle->oz[i] = bundle->oz[0];
+        bundle->dx[i] = bundle->dx[0];
+        bundle->dy[i] = bundle->dy[0];
+        bundle->dz[i] = bundle->dz[0];
+        bundle->t_min[i] = 1;
+        bundle->t_max[i] = 0;
+        bundle->skip[i] = GI_SHAPE_NONE;
+    }
+}
+
+/* The bundle's frame: w along the mean direction, u along `side` or, when that is not known, along
+ * the longest extent of the rays. False when the rays are spread too wide for one plane. */
+static inline bool tile_frame(
+    const GiBundle *bundle, double toward, GiVec *u, GiVec *v, GiVec *w) {
+    GiVec sum = {0, 0, 0};
+    for (int i = 0; i < bundle->count; i++) {
+        sum = gi_add(sum, gi_normalize(gi_vec(bundle->dx[i], bundle->dy[i], bundle->dz[i])));
+    }
+    *w = gi_normalize(gi_scale(sum, toward));
+    if (gi_vec_is_zero(*w)) return false;
+    GiVec side = bundle->side;
+    if (gi_vec_is_zero(side)) {
+        int last = bundle->count - 1;
+        side = gi_sub(gi_normalize(gi_vec(bundle->dx[last], bundle->dy[last], bundle->dz[last])),
+            gi_normalize(gi_vec(bundle->dx[0], bundle->dy[0], bundle->dz[0])));
+    }
+    *u = gi_sub(side, gi_scale(*w, gi_dot(side, *w)));
+    if (gi_length(*u) < 1e-9 * gi_length(side) || gi_vec_is_zero(side)) {
+        GiVec other = fabs(w->x) < 0.6 ? gi_vec(1, 0, 0) : gi_vec(0, 1, 0);
+        *u = gi_cross(*w, other);
+    }
+    *u = gi_normalize(*u);
+    *v = gi_cross(*w, *u);
+    return true;
+}
+
+static inline R tile_dot(GiVec a, R x, R y, R z) {
+    return R_OF(a.x) * x + R_OF(a.y) * y + R_OF(a.z) * z;
+}
+
+static inline double r_minimum(R a) { return -r_maximum(-a); }
+
+/* Rectangle and depths of the packets. False when a ray is too oblique to the axis. */
+static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiVec w) {
+    GiBundle *bundle = tile->bundle;
+    Packets *packets = &tile->packets;
+    Frustum *frustum = &tile->frustum;
+    frustum->a0 = frustum->b0 = INFINITY;
+    frustum->a1 = frustum->b1 = frustum->far = -INFINITY;
+    M oblique = M_OF(false);
+    for (int k = 0; k < GI_PACKET_COUNT; k++) {
+        if (k * GI_PACKET_SIZE >= bundle->count) {
+            packets->a0[k] = packets->b0[k] = INFINITY;
+            packets->a1[k] = packets->b1[k] = packets->far[k] = -INFINITY;
+            tile->alive[k] = 0;
+            continue;
+        }
+        R a0 = R_OF(INFINITY), a1 = R_OF(-INFINITY), b0 = a0, b1 = a1, far = R_OF(-INFINITY);
+        for (int i = k * GI_PACKET_SIZE; i < (k + 1) * GI_PACKET_SIZE; i += GI_DOUBLES) {
+            R x = r_load(bundle->dx + i), y = r_load(bundle->dy + i), z = r_load(bundle->dz + i);
+            R square = x * x + y * y + z * z;
+            r_store(bundle->ix + i, gi_wide_inverse(x));
+            r_store(bundle->iy + i, gi_wide_inverse(y));
+            r_store(bundle->iz + i, gi_wide_inverse(z));
+            r_store(bundle->inverse_square + i, R_OF(1) / square);
+            R depth = R_OF(toward) * tile_dot(w, x, y, z);
+            /* Within 66 degrees of the axis: depth / |d| > 0.4. */
+            oblique = oblique | M_NOT(R_LESS(R_OF(0.16) * square, depth * depth) &
+                                      R_LESS(R_OF(0), depth));
+            r_store(bundle->depth + i, depth);
+            R a = R_OF(toward) * tile_dot(u, x, y, z) / depth;
+            R b = R_OF(toward) * tile_dot(v, x, y, z) / depth;
+            a0 = R_MIN(a0, a);
+            a1 = R_MAX(a1, a);
+            b0 = R_MIN(b0, b);
+            b1 = R_MAX(b1, b);
+            /* Shadow rays end at the apex, so a ray's depth is that of its origin. */
+            R reach = depth;
+            if (!tile->any) reach = depth * r_load(bundle->t_max + i);
+            far = R_MAX(far, reach);
+        }
+        const float wider = 0x1p-20f;
+        packets->a0[k] = (float)r_minimum(a0), packets->a1[k] = (float)r_maximum(a1);
+        packets->b0[k] = (float)r_minimum(b0), packets->b1[k] = (float)r_maximum(b1);
+        packets->a0[k] -= wider * (1 + fabsf(packets->a0[k]));
+        packets->a1[k] += wider * (1 + fabsf(packets->a1[k]));
+        packets->b0[k] -= wider * (1 + fabsf(packets->b0[k]));
+        packets->b1[k] += wider * (1 + fabsf(packets->b1[k]));
+        packets->far[k] = (float)(r_maximum(far) * tile->scale) * (1 + wider);
+        tile->alive[k] = 0xffff;
+        if (packets->a0[k] < frustum->a0) frustum->a0 = packets->a0[k];
+        if (packets->a1[k] > frustum->a1) frustum->a1 = packets->a1[k];
+        if (packets->b0[k] < frustum->b0) frustum->b0 = packets->b0[k];
+        if (packets->b1[k] > frustum->b1) frustum->b1 = packets->b1[k];
+        if (packets->far[k] > frustum->far) frustum->far = packets->far[k];
+    }
+    return m_bits(oblique) == 0;
+}
+
+static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
+    Frustum *frustum = &tile->frustum;
+    const GiTree *tree = tile->trace->tree;
+    GiVec apex = gi_scale(gi_sub(tile->bundle->apex, tree->center), tree->scale);
+    double largest = fmax(fabs(apex.x), fmax(fabs(apex.y), fabs(apex.z)));
+    frustum->apex[0] = (float)apex.x;
+    frustum->apex[1] = (float)apex.y;
+    frustum->apex[2] = (float)apex.z;
+    frustum->margin = (float)(GI_TREE_GROWTH * largest);
+    const GiVec rows[3] = {u, v, w};
+    for (int i = 0; i < 3; i++) {
+        frustum->axis[i][0] = (float)rows[i].x;
+        frustum->axis[i][1] = (float)rows[i].y;
+        frustum->axis[i][2] = (float)rows[i].z;
+    }
+    /* Outward normals: p outside when p . n > 0. */
+    const GiVec planes[4] = {
+        gi_sub(gi_scale(w, frustum->a0), u),
+        gi_sub(u, gi_scale(w, frustum->a1)),
+        gi_sub(gi_scale(w, frustum->b0), v),
+        gi_sub(v, gi_scale(w, frustum->b1)),
+    };
+    for (int i = 0; i < 4; i++) {
+        frustum->plane[i][0] = (float)planes[i].x;
+        frustum->plane[i][1] = (float)planes[i].y;
+        frustum->plane[i][2] = (float)planes[i].z;
+    }
+}
+
+/* ---------------------------------------------------------------- culling */
+
+/* The smallest value of p . n over boxes relative to the apex. */
+static inline F smallest_dot(const float n[3], const F low[3], const F high[3]) {
+    F x = f_of(n[0]) * (n[0] >= 0 ? low : high)[0];
+    F y = f_of(n[1]) * (n[1] >= 0 ? low : high)[1];
+    F z = f_of(n[2]) * (n[2] >= 0 ? low : high)[2];
+    return x + y + z;
+}
+
+static inline F largest_dot(const float n[3], const F low[3], const F high[3]) {
+    F x = f_of(n[0]) * (n[0] >= 0 ? high : low)[0];
+    F y = f_of(n[1]) * (n[1] >= 0 ? high : low)[1];
+    F z = f_of(n[2]) * (n[2] >= 0 ? high : low)[2];
+    return x + y + z;
+}
+
+/* Bits of the children whose boxes reach into the frustum; their nearest depths in enter[8]. */
+static inline unsigned tile_node(const Frustum *frustum, const GiNode *node, float enter[8]) {
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        F low[3], high[3];
+        for (int axis = 0; axis < 3; axis++) {
+            low[axis] = f_load(node->low[axis] + i) - f_of(frustum->apex[axis] + frustum->margin);
+            high[axis] =
+                f_load(node->high[axis] + i) - f_of(frustum->apex[axis] - frustum->margin);
+        }
+        F nearest = smallest_dot(frustum->axis[2], low, high);
+        F zero = f_of(0);
+        unsigned in = f_less_equal(nearest, f_of(frustum->far));
+        in &= f_less_equal(zero, largest_dot(frustum->axis[2], low, high));
+        for (int plane = 0; plane < 4; plane++) {
+            in &= f_less_equal(smallest_dot(frustum->plane[plane], low, high), zero);
+        }
+        f_store(enter + i, nearest);
+        bits |= in << i;
+    }
+    return bits;
+}
+
+/* Eight shapes as rectangles in the plane of the packets. */
+typedef struct Rectangles { float a0[8], a1[8], b0[8], b1[8], near[8]; } Rectangles;
+
+/* From centres and half extents along u, v, w: (x +- e) / z over all z of the shape, which is
+ * farthest out at the nearest or the farthest z. A shape that reaches the apex' own plane covers
+ * everything. Returns the bits of those that may concern the tile. */
+static inline unsigned rectangles_of(const Frustum *frustum, int i, const F center[3],
+    const F extent[3], Rectangles *rectangles) {
+    F z0 = center[2] - extent[2], z1 = center[2] + extent[2];
+    F one = f_of(1);
+    F near_scale = one / z0, far_scale = one / z1;
+    F x0 = center[0] - extent[0], x1 = center[0] + extent[0];
+    F y0 = center[1] - extent[1], y1 = center[1] + extent[1];
+    F a0 = f_min(x0 * near_scale, x0 * far_scale), a1 = f_max(x1 * near_scale, x1 * far_scale);
+    F b0 = f_min(y0 * near_scale, y0 * far_scale), b1 = f_max(y1 * near_scale, y1 * far_scale);
+    f_store(rectangles->a0 + i, a0);
+    f_store(rectangles->a1 + i, a1);
+    f_store(rectangles->b0 + i, b0);
+    f_store(rectangles->b1 + i, b1);
+    f_store(rectangles->near + i, z0);
+    unsigned reaching = f_less_equal(z0, f_of(frustum->far)) & f_less_equal(f_of(0), z1);
+    unsigned around = reaching & f_less_equal(z0, f_of(frustum->margin));
+    unsigned in = f_less_equal(a0, f_of(frustum->a1)) & f_less_equal(f_of(frustum->a0), a1) &
+                  f_less_equal(b0, f_of(frustum->b1)) & f_less_equal(f_of(frustum->b0), b1);
+    for (unsigned bits = around; bits != 0; bits &= bits - 1) {
+        int lane = i + lowest_bit(bits);
+        rectangles->a0[lane] = rectangles->b0[lane] = rectangles->near[lane] = -INFINITY;
+        rectangles->a1[lane] = rectangles->b1[lane] = INFINITY;
+    }
+    return ((in & reaching) | around) << i;
+}
+
+static inline F frame_dot(const float n[3], F x, F y, F z) {
+    return f_of(n[0]) * x + f_of(n[1]) * y + f_of(n[2]) * z;
+}
+
+static inline unsigned tile_spheres(
+    const Frustum *frustum, const GiSphereBlock *block, Rectangles *rectangles) {
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        F x = f_load(block->center[0] + i) - f_of(frustum->apex[0]);
+        F y = f_load(block->center[1] + i) - f_of(frustum->apex[1]);
+        F z = f_load(block->center[2] + i) - f_of(frustum->apex[2]);
+        F radius = f_load(block->radius + i) + f_of(frustum->margin);
+        F center[3], extent[3] = {radius, radius, radius};
+        for (int row = 0; row < 3; row++) center[row] = frame_dot(frustum->axis[row], x, y, z);
+        bits |= rectangles_of(frustum, i, center, extent, rectangles);
+    }
+    return bits;
+}
+
+static inline unsigned tile_boxes(
+    const Frustum *frustum, const GiBoxBlock *block, Rectangles *rectangles) {
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        F middle[3], half[3], center[3], extent[3];
+        for (int axis = 0; axis < 3; axis++) {
+            F low = f_load(block->low[axis] + i), high = f_load(block->high[axis] + i);
+            middle[axis] = (low + high) * f_of(0.5f) - f_of(frustum->apex[axis]);
+            half[axis] = (high - low) * f_of(0.5f) + f_of(frustum->margin);
+        }
+        for (int row = 0; row < 3; row++) {
+            const float *n = frustum->axis[row];
+            const float size[3] = {fabsf(n[0]), fabsf(n[1]), fabsf(n[2])};
+            center[row] = frame_dot(n, middle[0], middle[1], middle[2]);
+            extent[row] = frame_dot(size, half[0], half[1], half[2]);
+        }
+        bits |= rectangles_of(frustum, i, center, extent, rectangles);
+    }
+    return bits;
+}
+
+/* Bits of the packets that the rectangle of one shape overlaps. */
+static inline unsigned tile_overlaps(
+    const Packets *packets, const Rectangles *rectangles, int lane) {
+    unsigned bits = 0;
+    F a0 = f_of(rectangles->a0[lane]), a1 = f_of(rectangles->a1[lane]),
+      b0 = f_of(rectangles->b0[lane]), b1 = f_of(rectangles->b1[lane]),
+      near = f_of(rectangles->near[lane]);
+    for (int k = 0; k < GI_PACKET_COUNT; k += GI_FLOATS) {
+        bits |= (f_less_equal(a0, f_load(packets->a1 + k)) &
+                    f_less_equal(f_load(packets->a0 + k), a1) &
+                    f_less_equal(b0, f_load(packets->b1 + k)) &
+                    f_less_equal(f_load(packets->b0 + k), b1) &
+                    f_less_equal(near, f_load(packets->far + k)))
+                << k;
+    }
+    return bits;
+}
+
+static inline void tile_refresh_far(Tile *tile) {
+    float far = -INFINITY;
+    for (int k = 0; k < GI_PACKET_COUNT; k++) {
+        if (tile->packets.far[k] > far) far = tile->packets.far[k];
+    }
+    tile->frustum.far = far;
+}
+
+/* ---------------------------------------------------------------- deciding */
+
+static inline gi_wide_Ray tile_ray(const GiBundle *bundle, int i) {
+    return (gi_wide_Ray){r_load(bundle->ox + i), r_load(bundle->oy + i), r_load(bundle->oz + i),
+        r_load(bundle->dx + i), r_load(bundle->dy + i), r_load(bundle->dz + i),
+        r_load(bundle->ix + i), r_load(bundle->iy + i), r_load(bundle->iz + i),
+        r_load(bundle->inverse_square + i)};
+}
+
+/* Of two shapes at the very same t the first in document order stays. */
+static inline void resolve_ties(Tile *tile, GiShapeRef ref, int i, unsigned bits) {
+    for (; bits != 0; bits &= bits - 1) {
+        uint32_t *shape = &tile->bundle->shape[i + lowest_bit(bits)];
+        if (*shape != GI_SHAPE_NONE &&
+            gi_shape_before(tile->trace->shapes, ref, (GiShapeRef){*shape})) {
+            *shape = ref.bits;
+        }
+    }
+}
+
+/* One shape against one packet. Returns whether anything changed. */
+static inline bool test_closest(Tile *tile, GiShapeRef ref, int packet) {
+    GiBundle *bundle = tile->bundle;
+    unsigned changed = 0;
+    R far = R_OF(-INFINITY);
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
+        int i = packet * GI_PACKET_SIZE + j;
+        gi_wide_Ray ray = tile_ray(bundle, i);
+        R t, best = r_load(bundle->t + i);
+        M hit = gi_wide_shape(tile->trace->shapes, ref, &ray, r_load(bundle->t_min + i),
+            r_load(bundle->t_max + i), &t);
+        M nearer = hit & R_LESS(t, best);
+        unsigned bits = m_bits(nearer), ties = m_bits(hit & R_EQUAL(t, best));
+        if (bits != 0) {
+            best = R_SELECT(nearer, t, best);
+            r_store(bundle->t + i, best);
+            u_store_where(bundle->shape + i, bits, ref.bits);
+            changed |= bits;
+        }
+        if (ties != 0) resolve_ties(tile, ref, i, ties);
+        far = R_MAX(far, best * r_load(bundle->depth + i));
+    }
+    if (changed == 0) return false;
+    tile->packets.far[packet] = (float)(r_maximum(far) * tile->scale) * (1 + 0x1p-20f);
+    return true;
+}
+
+static inline bool test_any(Tile *tile, GiShapeRef ref, int packet) {
+    GiBundle *bundle = tile->bundle;
+    unsigned alive = tile->alive[packet], before = alive;
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
+        if ((alive >> j & ((1u << GI_DOUBLES) - 1)) == 0) continue;
+        int i = packet * GI_PACKET_SIZE + j;
+        gi_wide_Ray ray = tile_ray(bundle, i);
+        R t;
+        M hit = gi_wide_shape(tile->trace->shapes, ref, &ray, r_load(bundle->t_min + i),
+            r_load(bundle->t_max + i), &t);
+        for (unsigned bits = m_bits(hit) & (alive >> j); bits != 0; bits &= bits - 1) {
+            int lane = lowest_bit(bits);
+            if (bundle->skip[i + lane] == ref.bits) continue;
+            bundle->shape[i + lane] = ref.bits;
+            alive &= ~(1u << (j + lane));
+        }
+    }
+    tile->alive[packet] = alive;
+    if (alive == 0) tile->packets.far[packet] = -INFINITY;
+    return alive == 0 && before != 0;
+}
+
+static inline bool tile_test(Tile *tile, GiShapeRef ref, int packet) {
+    return tile->any ? test_any(tile, ref, packet) : test_closest(tile, ref, packet);
+}
+
+/* ---------------------------------------------------------------- the walk */
+
+static inline void tile_block(Tile *tile, uint32_t child) {
+    const GiTree *tree = tile->trace->tree;
+    uint32_t index = child & GI_CHILD_INDEX;
+    Rectangles rectangles;
+    const GiShapeRef *shapes;
+    unsigned bits;
+    if (child & GI_CHILD_SPHERES) {
+        bits = tile_spheres(&tile->frustum, &tree->sphere_blocks[index], &rectangles);
+        shapes = tree->sphere_blocks[index].shape;
+    } else {
+        bits = tile_boxes(&tile->frustum, &tree->box_blocks[index], &rectangles);
+        shapes = tree->box_blocks[index].shape;
+    }
+    bool changed = false;
+    for (; bits != 0; bits &= bits - 1) {
+        int lane = lowest_bit(bits);
+        unsigned overlapped = tile_overlaps(&tile->packets, &rectangles, lane);
+        for (; overlapped != 0; overlapped &= overlapped - 1) {
+            changed |= tile_test(tile, shapes[lane], lowest_bit(overlapped));
+        }
+    }
+    if (changed) tile_refresh_far(tile);
+}
+
+static inline void tile_walk(Tile *tile) {
+    const GiTree *tree = tile->trace->tree;
+    int packet_count = (tile->bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
+    for (uint32_t i = 0; i < tree->unbounded_count; i++) {
+        for (int k = 0; k < packet_count; k++) tile_test(tile, tree->unbounded[i], k);
+    }
+    if (tree->unbounded_count > 0) tile_refresh_far(tile);
+    StackEntry stack[STACK_LIMIT];
+    int count = 0;
+    if (tree->root != GI_CHILD_NONE) stack[count++] = (StackEntry){tree->root, -INFINITY};
+    while (count > 0) {
+        StackEntry top = stack[--count];
+        if (!(top.enter <= tile->frustum.far)) continue;
+        if (top.child & GI_CHILD_BLOCK) {
+            tile_block(tile, top.child);
+        } else {
+            const GiNode *node = &tree->nodes[top.child];
+            float enter[8];
+            unsigned bits = tile_node(&tile->frustum, node, enter);
+            count = push_children(stack, count, node->child, bits, enter);
+        }
+    }
+}
+
+static inline GiTraceRay bundle_ray(const GiBundle *bundle, int i) {
+    return (GiTraceRay){
+        {bundle->ox[i], bundle->oy[i], bundle->oz[i]},
+        {bundle->dx[i], bundle->dy[i], bundle->dz[i]},
+        bundle->t_min[i],
+        bundle->t_max[i],
+        bundle->skip[i],
+    };
+}
+
+/* Few rays, or rays all round the apex, are better traced one by one. */
+enum { TILE_MINIMUM = 8 };
+
+static inline void bundle_trace(const GiTrace *trace, GiBundle *bundle, bool any) {
+    double toward = any ? -1 : 1;
+    Tile tile;
+    tile.trace = trace;
+    tile.bundle = bundle;
+    tile.any = any;
+    tile.scale = trace->tree->scale;
+    for (int i = 0; i < GI_BUNDLE_SIZE; i++) bundle->shape[i] = GI_SHAPE_NONE;
+    GiVec u, v, w;
+    if (bundle->count >= TILE_MINIMUM && tile_frame(bundle, toward, &u, &v, &w)) {
+        tile_pad(bundle);
+        if (tile_packets(&tile, toward, u, v, w)) {
+            if (!any) {
+                for (int i = 0; i < GI_BUNDLE_SIZE; i++) bundle->t[i] = bundle->t_max[i];
+            }
+            tile_planes(&tile, u, v, w);
+            tile_walk(&tile);
+            return;
+        }
+    }
+    for (int i = 0; i < bundle->count; i++) {
+        GiTraceRay ray = bundle_ray(bundle, i);
+        GiTraceHit hit;
+        if (any ? line_trace(trace, &ray, true, &hit) : line_trace(trace, &ray, false, &hit)) {
+            bundle->shape[i] = any ? 0 : hit.shape.bits;
+            if (!any) bundle->t[i] = hit.t;
+        }
+    }
+}
+
+static void GI_KERNEL(bundle_closest)(const GiTrace *trace, GiBundle *bundle) {
+    bundle_trace(trace, bundle, false);
+}
+
+static void GI_KERNEL(bundle_any)(const GiTrace *trace, GiBundle *bundle) {
+    bundle_trace(trace, bundle, true);
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT
+ * The kernels of one instruction set. Compiled once for each, with -DGI_ISA=avx2 and the like;
+ * everything here is static but the table at the end, whose name tells the instruction set, so
+ * that no function of a later processor can be linked into code for an earlier one. */
+#include "kernel/kernel.h"
+
+#include "shape/hit.h"
+#include "kernel/wide.h"
+
+#define GI_KERNEL(name) GI_PASTE(GI_PASTE(gi_##name, _), GI_ISA)
+
+#define GI_HIT(name) gi_wide_##name
+#include "shape/hit_template.h"
+#undef GI_HIT
+
+#include "kernel/single.h"
+#include "kernel/bundle.h"
+
+extern const GiKernel GI_KERNEL(kernel);
+
+const GiKernel GI_KERNEL(kernel) = {
+    GI_TEXT(GI_ISA),
+    GI_KERNEL(closest),
+    GI_KERNEL(any),
+    GI_KERNEL(bundle_closest),
+    GI_KERNEL(bundle_any),
+};

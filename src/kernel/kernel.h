@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT
+ * The hot loops: which shape a ray meets. A kernel sees the tree and the shapes' numbers, nothing
+ * else of a scene. kernel.c is compiled once for each instruction set; dispatch.c chooses.
+ *
+ * All kernels give the same answer to the last bit: the smallest t at which shape/hit.h finds a
+ * shape in the open interval (t_min, t_max), and of several shapes at that t the one that comes
+ * first in document order. */
+#pragma once
+
+#include "accel/layout.h"
+
+typedef struct GiTrace {
+    const GiTree *tree;
+    const GiShapes *shapes;
+} GiTrace;
+
+typedef struct GiTraceRay {
+    GiVec origin, direction; /* any length but zero */
+    double t_min, t_max;
+    uint32_t skip; /* bits of a shape that the ray does not meet, or GI_SHAPE_NONE */
+} GiTraceRay;
+
+typedef struct GiTraceHit {
+    double t;
+    GiShapeRef shape;
+} GiTraceHit;
+
+/* Up to 256 rays whose lines pass through one point, traced together. Neighbours in the arrays,
+ * sixteen at a time, should be neighbours in space. Two uses:
+ *     closest   the rays start at the apex (camera rays)
+ *     any       the rays end there: origin + direction is the apex, t_max at most 1 (shadow rays
+ *               of a point light)
+ * In: everything up to skip. Out: shape (GI_SHAPE_NONE: nothing met) and, for closest, t. */
+enum { GI_BUNDLE_SIZE = 256, GI_PACKET_SIZE = 16, GI_PACKET_COUNT = GI_BUNDLE_SIZE / GI_PACKET_SIZE };
+
+typedef struct GiBundle {
+    _Alignas(64) double ox[GI_BUNDLE_SIZE];
+    double oy[GI_BUNDLE_SIZE], oz[GI_BUNDLE_SIZE];
+    double dx[GI_BUNDLE_SIZE], dy[GI_BUNDLE_SIZE], dz[GI_BUNDLE_SIZE];
+    double t_min[GI_BUNDLE_SIZE], t_max[GI_BUNDLE_SIZE];
+    uint32_t skip[GI_BUNDLE_SIZE];
+    double t[GI_BUNDLE_SIZE];
+    uint32_t shape[GI_BUNDLE_SIZE];
+    int count; /* 1 to 256 */
+    GiVec apex;
+    GiVec side; /* a direction the packets are aligned with; zero: none known */
+    /* Filled in by the kernel: 1 / d and 1 / d.d, depth of the direction along the axis. */
+    double ix[GI_BUNDLE_SIZE], iy[GI_BUNDLE_SIZE], iz[GI_BUNDLE_SIZE];
+    double inverse_square[GI_BUNDLE_SIZE], depth[GI_BUNDLE_SIZE];
+} GiBundle;
+
+
+typedef struct GiKernel {
+    const char *name;
+    bool (*closest)(const GiTrace *trace, const GiTraceRay *ray, GiTraceHit *hit);
+    bool (*any)(const GiTrace *trace, const GiTraceRay *ray);
+    void (*bundle_closest)(const GiTrace *trace, GiBundle *bundle);
+    void (*bundle_any)(const GiTrace *trace, GiBundle *bundle);
+} GiKernel;
+
+/* The kernels this build has and this machine can run, fastest first; null at the end. */
+const GiKernel *gi_kernel_at(int index);
+
+/* By name; null: the fastest. Null when there is none of that name. */
+const GiKernel *gi_kernel_find(const char *name);

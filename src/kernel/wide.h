@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT
+ * Vectors of the width the instruction set has, under a handful of names. Intrinsics appear in this
+ * file and nowhere else. The file is included by kernel.c, which is compiled once for each of
+ *
+ *     GI_ISA      F: floats   R: doubles   M: what a comparison of doubles gives
+ *     avx512      8           8            a mask register
+ *     avx2        8           4            a vector of all ones and zeros
+ *     sse2        4           2            the same
+ *     portable    1           1            an int
+ *
+ * Comparisons of floats give bits, lane 0 lowest. Arithmetic is written with operators. */
+#pragma once
+
+#include <math.h>
+#include <stdint.h>
+
+#define GI_PASTE_(a, b) a##b
+#define GI_PASTE(a, b)  GI_PASTE_(a, b)
+#define GI_TEXT_(a)     #a
+#define GI_TEXT(a)      GI_TEXT_(a)
+
+#define avx512   1
+#define avx2     2
+#define sse2     3
+#define portable 4
+#define GI_ISA_NUMBER GI_ISA
+#if GI_ISA_NUMBER == avx512
+#define GI_IS_AVX512 1
+#elif GI_ISA_NUMBER == avx2
+#define GI_IS_AVX2 1
+#elif GI_ISA_NUMBER == sse2
+#define GI_IS_SSE2 1
+#elif GI_ISA_NUMBER == portable
+#define GI_IS_PORTABLE 1
+#else
+#error "GI_ISA must be avx512, avx2, sse2 or portable"
+#endif
+#undef avx512
+#undef avx2
+#undef sse2
+#undef portable
+
+#ifndef GI_IS_PORTABLE
+#include <immintrin.h>
+#endif
+
+/* ---------------------------------------------------------------- floats: culling */
+
+#if defined(GI_IS_AVX512) || defined(GI_IS_AVX2)
+enum { GI_FLOATS = 8 };
+typedef __m256 F;
+static inline F f_of(float x) { return _mm256_set1_ps(x); }
+static inline F f_load(const float *p) { return _mm256_loadu_ps(p); }
+static inline void f_store(float *p, F a) { _mm256_storeu_ps(p, a); }
+static inline F f_min(F a, F b) { return _mm256_min_ps(a, b); }
+static inline F f_max(F a, F b) { return _mm256_max_ps(a, b); }
+static inline F f_sqrt(F a) { return _mm256_sqrt_ps(a); }
+#ifdef GI_IS_AVX512
+static inline unsigned f_less_equal(F a, F b) { return _mm256_cmp_ps_mask(a, b, _CMP_LE_OQ); }
+#else
+static inline unsigned f_less_equal(F a, F b) {
+    return (unsigned)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ));
+}
+#endif
+#elif defined(GI_IS_SSE2)
+enum { GI_FLOATS = 4 };
+typedef __m128 F;
+static inline F f_of(float x) { return _mm_set1_ps(x); }
+static inline F f_load(const float *p) { return _mm_loadu_ps(p); }
+static inline void f_store(float *p, F a) { _mm_storeu_ps(p, a); }
+static inline F f_min(F a, F b) { return _mm_min_ps(a, b); }
+static inline F f_max(F a, F b) { return _mm_max_ps(a, b); }
+static inline F f_sqrt(F a) { return _mm_sqrt_ps(a); }
+static inline unsigned f_less_equal(F a, F b) {
+    return (unsigned)_mm_movemask_ps(_mm_cmple_ps(a, b));
+}
+#else
+enum { GI_FLOATS = 1 };
+typedef float F;
+static inline F f_of(float x) { return x; }
+static inline F f_load(const float *p) { return *p; }
+static inline void f_store(float *p, F a) { *p = a; }
+static inline F f_min(F a, F b) { return a < b ? a : b; }
+static inline F f_max(F a, F b) { return a > b ? a : b; }
+static inline F f_sqrt(F a) { return sqrtf(a); }
+static inline unsigned f_less_equal(F a, F b) { return a <= b; }
+#endif
+
+/* ---------------------------------------------------------------- doubles: deciding */
+
+#if defined(GI_IS_AVX512)
+enum { GI_DOUBLES = 8 };
+#define R __m512d
+#define M __mmask8
+#define R_OF(x)            _mm512_set1_pd(x)
+#define R_SQRT(a)          _mm512_sqrt_pd(a)
+#define R_MIN(a, b)        _mm512_min_pd(a, b)
+#define R_MAX(a, b)        _mm512_max_pd(a, b)
+#define R_LESS(a, b)       _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ)
+#define R_LESS_EQUAL(a, b) _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ)
+#define R_EQUAL(a, b)      _mm512_cmp_pd_mask(a, b, _CMP_EQ_OQ)
+#define R_SELECT(m, a, b)  _mm512_mask_blend_pd((M)(m), b, a)
+#define M_OF(x)            ((M)(-(int)(x)))
+#define M_NOT(m)           ((M)(~(m)))
+static inline unsigned m_bits(M m) { return m; }
+static inline R r_load(const double *p) { return _mm512_loadu_pd(p); }
+static inline void r_store(double *p, R a) { _mm512_storeu_pd(p, a); }
+static inline double r_maximum(R a) { return _mm512_reduce_max_pd(a); }
+static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
+    _mm256_mask_storeu_epi32(p, (__mmask8)bits, _mm256_set1_epi32((int)value));
+}
+#elif defined(GI_IS_AVX2)
+enum { GI_DOUBLES = 4 };
+#define R __m256d
+#define M __m256i
+#define M_FROM(a)          _mm256_castpd_si256(a)
+#define R_OF(x)            _mm256_set1_pd(x)
+#define R_SQRT(a)          _mm256_sqrt_pd(a)
+#define R_MIN(a, b)        _mm256_min_pd(a, b)
+#define R_MAX(a, b)        _mm256_max_pd(a, b)
+#define R_LESS(a, b)       M_FROM(_mm256_cmp_pd(a, b, _CMP_LT_OQ))
+#define R_LESS_EQUAL(a, b) M_FROM(_mm256_cmp_pd(a, b, _CMP_LE_OQ))
+#define R_EQUAL(a, b)      M_FROM(_mm256_cmp_pd(a, b, _CMP_EQ_OQ))
+#define R_SELECT(m, a, b)  _mm256_blendv_pd(b, a, _mm256_castsi256_pd(m))
+#define M_OF(x)            _mm256_set1_epi64x(-(long long)(x))
+#define M_NOT(m)           (~(m))
+static inline unsigned m_bits(M m) {
+    return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(m));
+}
+static inline R r_load(const double *p) { return _mm256_loadu_pd(p); }
+static inline void r_store(double *p, R a) { _mm256_storeu_pd(p, a); }
+#elif defined(GI_IS_SSE2)
+enum { GI_DOUBLES = 2 };
+#define R __m128d
+#define M __m128i
+#define M_FROM(a)          _mm_castpd_si128(a)
+#define R_OF(x)            _mm_set1_pd(x)
+#define R_SQRT(a)          _mm_sqrt_pd(a)
+#define R_MIN(a, b)        _mm_min_pd(a, b)
+#define R_MAX(a, b)        _mm_max_pd(a, b)
+#define R_LESS(a, b)       M_FROM(_mm_cmplt_pd(a, b))
+#define R_LESS_EQUAL(a, b) M_FROM(_mm_cmple_pd(a, b))
+#define R_EQUAL(a, b)      M_FROM(_mm_cmpeq_pd(a, b))
+#define R_SELECT(m, a, b)  r_select(m, a, b)
+#define M_OF(x)            _mm_set1_epi64x(-(long long)(x))
+#define M_NOT(m)           (~(m))
+static inline R r_select(M m, R a, R b) {
+    return _mm_castsi128_pd(
+        _mm_or_si128(_mm_and_si128(m, M_FROM(a)), _mm_andnot_si128(m, M_FROM(b))));
+}
+static inline unsigned m_bits(M m) { return (unsigned)_mm_movemask_pd(_mm_castsi128_pd(m)); }
+static inline R r_load(const double *p) { return _mm_loadu_pd(p); }
+static inline void r_store(double *p, R a) { _mm_storeu_pd(p, a); }
+#else
+enum { GI_DOUBLES = 1 };
+#define R double
+#define M int
+#define R_OF(x)            (x)
+#define R_SQRT(a)          sqrt(a)
+#define R_MIN(a, b)        gi_hit_minimum(a, b)
+#define R_MAX(a, b)        gi_hit_maximum(a, b)
+#define R_LESS(a, b)       ((a) < (b))
+#define R_LESS_EQUAL(a, b) ((a) <= (b))
+#define R_EQUAL(a, b)      ((a) == (b))
+#define R_SELECT(m, a, b)  ((m) ? (a) : (b))
+#define M_OF(x)            ((int)(x))
+#define M_NOT(m)           (!(m))
+static inline unsigned m_bits(M m) { return (unsigned)m; }
+static inline R r_load(const double *p) { return *p; }
+static inline void r_store(double *p, R a) { *p = a; }
+#endif
+
+#ifndef GI_IS_AVX512
+static inline double r_maximum(R a) {
+    double lane[GI_DOUBLES];
+    r_store(lane, a);
+    double largest = lane[0];
+    for (int i = 1; i < GI_DOUBLES; i++) largest = largest > lane[i] ? largest : lane[i];
+    return largest;
+}
+static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
+    for (int i = 0; i < GI_DOUBLES; i++) {
+        if (bits >> i & 1) p[i] = value;
+    }
+}
+#endif
+
+/* ---------------------------------------------------------------- bits */
+
+#if defined(__GNUC__)
+static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
+#else
+static inline int lowest_bit(unsigned bits) {
+    int index = 0;
+    while (!(bits >> index & 1)) index++;
+    return index;
+}
+#endif

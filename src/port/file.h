@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT
+ * Files: the only place where the system's file calls appear.
+ *
+ * Writing is whole or not at all. Bytes go to a file without a name in the target's folder; commit
+ * gives it the name in one rename. Until then an old file of that name stays as it is, and a
+ * process that dies leaves nothing behind. What is not a regular file (a pipe, /dev/null,
+ * /dev/stdout) is written directly, since it cannot be replaced. */
+#pragma once
+
+#include "glint/glint.h"
+
+typedef struct GiFileWriter {
+    const char *path; /* as the caller gave it, for messages; must outlive the writer */
+    int fd;
+    int folder;         /* of the target, links followed; -1 when the target is written directly */
+    int error;          /* errno of the first failure, which is the one that is reported; 0: none */
+    char name[256];     /* of the target, in its folder */
+    char temporary[64]; /* in the same folder; empty while the file has no name */
+} GiFileWriter;
+
+/* Prepares to write path. A new file gets the usual permissions (0666 less the umask); a file that
+ * is replaced keeps its own; a symbolic link is kept and what it points at is replaced. After
+ * GLINT_ERROR_FILE there is nothing to undo; after GLINT_OK commit or abandon must follow. */
+GlintStatus gi_file_write_begin(GiFileWriter *writer, const char *path, GlintError *error);
+
+/* Appends. False after a failure, which commit reports. */
+bool gi_file_write(GiFileWriter *writer, const void *bytes, size_t size);
+
+/* Puts the file in its place and ends the writer. On any failure, also an earlier one of
+ * gi_file_write, nothing is left and *error tells it: GLINT_ERROR_FILE. */
+GlintStatus gi_file_write_commit(GiFileWriter *writer, GlintError *error);
+
+/* Ends the writer and leaves nothing (but what went to a pipe or device already). */
+void gi_file_write_abandon(GiFileWriter *writer);
+
+typedef struct GiFileReader {
+    const char *path; /* as above */
+    int fd;
+    int error;
+    int64_t size; /* bytes; -1 when it is not a regular file and the end is not known */
+} GiFileReader;
+
+/* Opens path for reading from its beginning. A folder is refused. Errors: FILE; there is nothing
+ * to close then. */
+GlintStatus gi_file_read_open(GiFileReader *reader, const char *path, GlintError *error);
+
+/* At most size bytes, as many as there are at once; 0 at the end, negative on failure. A
+ * GlintReadFn, whose user is the GiFileReader. */
+int64_t gi_file_read(void *reader, void *buffer, size_t size);
+
+/* GLINT_OK, or GLINT_ERROR_FILE and the reason when gi_file_read has failed. */
+GlintStatus gi_file_read_status(const GiFileReader *reader, GlintError *error);
+
+void gi_file_read_close(GiFileReader *reader);

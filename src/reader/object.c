@@ -1,0 +1,353 @@
+/* SPDX-License-Identifier: MIT
+ * From values to the model: what an element means once it is complete. */
+#include "reader/state.h"
+
+#include <string.h>
+
+static uint64_t slot_bits(GiSlot first, GiSlot last) {
+    return ((UINT64_C(2) << last) - 1) & ~((UINT64_C(1) << first) - 1);
+}
+
+static GiVec slot(const GiReader *reader, GiSlot which) {
+    return gi_reader_is_given(reader, which) ? reader->slots[which].value
+                                             : reader->defaults[which];
+}
+
+static bool is_group(const GiFrame *frame) {
+    return frame->type != NULL && frame->element->kind == GI_KIND_SURFACE &&
+           frame->type->value == GLINT_SURFACE_GROUP;
+}
+
+/* The group (or the scene) that a child of the frame is placed in. */
+static uint32_t group_of(const GiFrame *parent) {
+    return is_group(parent) ? parent->index : GI_SHAPE_NONE;
+}
+
+/* ---------------------------------------------------------------- names */
+
+void gi_object_name(GiReader *reader, const GiFrame *frame, GiNamed named) {
+    const char *name = reader->tags.data + frame->name;
+    if (name[0] == '\0') return;
+    if (!gi_names_set(&reader->names, name, named)) gi_reader_out_of_memory(reader);
+}
+
+void gi_object_name_value(GiReader *reader, const GiFrame *frame, GiVec value) {
+    if (reader->tags.data[frame->name] == '\0') return;
+    uint32_t index = (uint32_t)reader->names.values.count;
+    if (!gi_array_push(reader->memory, &reader->names.values, value)) {
+        gi_reader_out_of_memory(reader);
+        return;
+    }
+    gi_object_name(
+        reader, frame, (GiNamed){.kind = (uint8_t)frame->element->kind, .index = index});
+}
+
+/* ---------------------------------------------------------------- beginning and values */
+
+void gi_object_begin(GiReader *reader, GiFrame *frame) {
+    switch (frame->element->kind) {
+    case GI_KIND_CAMERA:
+        reader->given &= ~slot_bits(GI_SLOT_VIEW_POINT, GI_SLOT_VIEW_HEIGHT);
+        break;
+    case GI_KIND_SURFACE:
+        if (is_group(frame)) {
+            GiShapeRef ref;
+            if (!gi_scene_add_group(reader->scene, &ref)) {
+                gi_reader_out_of_memory(reader);
+                return;
+            }
+            frame->index = gi_shape_index(ref);
+            return;
+        }
+        reader->given &= ~slot_bits(GI_SLOT_CENTER, GI_SLOT_NORMAL);
+        frame->index = 0; /* the default shader */
+        break;
+    case GI_KIND_SHADER:
+        reader->given &= ~slot_bits(GI_SLOT_DIFFUSE, GI_SLOT_EXPONENT);
+        break;
+    case GI_KIND_LIGHT:
+        reader->given &= ~slot_bits(GI_SLOT_POSITION, GI_SLOT_FALLOFF);
+        break;
+    default: break;
+    }
+}
+
+static void add_step(GiReader *reader, const GiFrame *parent, GiTransformStepKind kind, GiVec value) {
+    if (!is_group(parent)) return; /* a surface of unknown type */
+    if (!gi_scene_add_step(reader->scene, parent->index, kind, value)) {
+        gi_reader_out_of_memory(reader);
+    }
+}
+
+void gi_object_set(GiReader *reader, GiFrame *parent, const GiElement *element, GiVec value,
+    GiPlace place) {
+    GiScene *scene = reader->scene;
+    switch (element->slot) {
+    case GI_SLOT_IMAGE:
+        scene->has_image = true;
+        scene->width = (int)value.x;
+        scene->height = (int)value.y;
+        break;
+    case GI_SLOT_SAMPLES: scene->samples = value.x > 1 ? (int)value.x : 1; break;
+    case GI_SLOT_BACK_COLOR: scene->back_color = value; break;
+    case GI_SLOT_EXPOSURE:
+        if (value.x > 0) scene->exposure = value.x;
+        break;
+    case GI_SLOT_TRANSLATE: add_step(reader, parent, GI_STEP_TRANSLATE, value); break;
+    case GI_SLOT_ROTATE: add_step(reader, parent, GI_STEP_ROTATE, value); break;
+    case GI_SLOT_SCALE: add_step(reader, parent, GI_STEP_SCALE, value); break;
+    default:
+        reader->slots[element->slot] = (GiSlotValue){value, place};
+        reader->given |= UINT64_C(1) << element->slot;
+        break;
+    }
+}
+
+/* ---------------------------------------------------------------- camera, shader, light */
+
+/* The element that a fault of the camera is about: the one that the sentence begins with. */
+static GiPlace place_of_fault(const GiReader *reader, const GiFrame *frame, const char *fault) {
+    for (const GiElement *e = gi_elements; e->name != NULL; e++) {
+        size_t size = strlen(e->name);
+        if (e->contexts != GI_IN_CAMERA || !gi_reader_is_given(reader, e->slot)) continue;
+        if (strncmp(fault, e->name, size) == 0 && fault[size] == ' ') {
+            return reader->slots[e->slot].place;
+        }
+    }
+    if (gi_reader_is_given(reader, GI_SLOT_PROJ_NORMAL)) {
+        return reader->slots[GI_SLOT_PROJ_NORMAL].place;
+    }
+    if (gi_reader_is_given(reader, GI_SLOT_VIEW_DIR)) return reader->slots[GI_SLOT_VIEW_DIR].place;
+    return frame->place;
+}
+
+static void finish_camera(GiReader *reader, GiFrame *frame) {
+    GiCamera camera = {
+        .type = frame->type != NULL ? (GlintCameraType)frame->type->value : GLINT_CAMERA_PERSPECTIVE,
+        .view_point = slot(reader, GI_SLOT_VIEW_POINT),
+        .view_direction = slot(reader, GI_SLOT_VIEW_DIR),
+        .view_up = slot(reader, GI_SLOT_VIEW_UP),
+        .projection_normal = slot(reader, GI_SLOT_PROJ_NORMAL),
+        .projection_distance = slot(reader, GI_SLOT_PROJ_DISTANCE).x,
+        .view_width = slot(reader, GI_SLOT_VIEW_WIDTH).x,
+        .view_height = slot(reader, GI_SLOT_VIEW_HEIGHT).x,
+    };
+    const char *fault = frame->broken ? NULL : gi_scene_check_camera(&camera);
+    if (fault != NULL) {
+        bool normal = gi_reader_is_given(reader, GI_SLOT_PROJ_NORMAL);
+        bool parallel = strstr(fault, "parallel") != NULL;
+        gi_report_add(&reader->report, place_of_fault(reader, frame, fault), 1, "%s%s", fault,
+            !parallel ? ""
+            : normal  ? ": what is up in the picture is then undefined"
+                      : ", which is viewDir turned round: what is up in the picture is then undefined");
+        frame->broken = true;
+    }
+    if (frame->broken) {
+        gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_CAMERA, .broken = true});
+        return;
+    }
+    reader->scene->camera = camera;
+    reader->scene->has_camera = true;
+    if (reader->tags.data[frame->name] == '\0') return;
+    uint32_t index = (uint32_t)reader->cameras.count;
+    if (!gi_array_push(reader->memory, &reader->cameras, camera)) {
+        gi_reader_out_of_memory(reader);
+        return;
+    }
+    gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_CAMERA, .index = index});
+}
+
+/* A shader matters to a surface that has it and to those that refer to it. */
+static void give_shader(GiFrame *parent, uint32_t index) {
+    if (parent->element->kind == GI_KIND_SURFACE && !is_group(parent)) parent->index = index;
+}
+
+static void finish_shader(GiReader *reader, GiFrame *frame, GiFrame *parent) {
+    if (frame->type == NULL || frame->broken) {
+        parent->broken = true;
+        gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_SHADER, .broken = true});
+        return;
+    }
+    bool used = parent->element->kind == GI_KIND_SURFACE && !is_group(parent);
+    if (!used && reader->tags.data[frame->name] == '\0') return;
+    GiShader shader = {
+        .type = (GlintShaderType)frame->type->value,
+        .diffuse_given = gi_reader_is_given(reader, GI_SLOT_DIFFUSE),
+        .diffuse = slot(reader, GI_SLOT_DIFFUSE),
+        .specular = slot(reader, GI_SLOT_SPECULAR),
+        .exponent = slot(reader, GI_SLOT_EXPONENT).x,
+    };
+    size_t index = reader->scene->shaders.count;
+    if (index >= UINT32_MAX || !gi_array_push(reader->memory, &reader->scene->shaders, shader)) {
+        gi_reader_out_of_memory(reader);
+        return;
+    }
+    give_shader(parent, (uint32_t)index);
+    gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_SHADER, .index = (uint32_t)index});
+}
+
+static void finish_light(GiReader *reader, GiFrame *frame) {
+    if (frame->type == NULL || frame->broken) {
+        gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_LIGHT, .broken = true});
+        return;
+    }
+    GiLight light = {
+        .type = (GlintLightType)frame->type->value,
+        .position = slot(reader, GI_SLOT_POSITION),
+        .intensity = slot(reader, GI_SLOT_INTENSITY),
+    };
+    if (gi_reader_is_given(reader, GI_SLOT_FALLOFF)) {
+        bool none = reader->slots[GI_SLOT_FALLOFF].value.x == 0;
+        light.falloff = none ? GLINT_FALLOFF_NONE : GLINT_FALLOFF_INVERSE_SQUARE;
+    }
+    size_t index = reader->scene->lights.count;
+    if (index >= UINT32_MAX || !gi_array_push(reader->memory, &reader->scene->lights, light)) {
+        gi_reader_out_of_memory(reader);
+        return;
+    }
+    gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_LIGHT, .index = (uint32_t)index});
+}
+
+/* ---------------------------------------------------------------- surfaces */
+
+/* The rules of docs/scene-format.md, 5.4, for the apex. False when there is no cone. */
+static bool find_tip(GiReader *reader, const GiFrame *frame, GiVec center, double radius, double *tip) {
+    bool tip_given = gi_reader_is_given(reader, GI_SLOT_TIPZ);
+    bool theta_given = gi_reader_is_given(reader, GI_SLOT_THETA);
+    bool radius_given = gi_reader_is_given(reader, GI_SLOT_RADIUS);
+    bool by_angle = !tip_given && (theta_given || !radius_given);
+    *tip = by_angle
+               ? gi_scene_cone_tip(center.z, radius, slot(reader, GI_SLOT_THETA).x)
+               : slot(reader, GI_SLOT_TIPZ).x;
+    const char *fault = gi_scene_check_cone(center.z, *tip);
+    if (fault == NULL && !isfinite(radius / (*tip - center.z))) {
+        fault = "the cone is too steep or too flat for its slope to be a number";
+    }
+    if (fault == NULL) return true;
+    GiPlace place = tip_given      ? reader->slots[GI_SLOT_TIPZ].place
+                    : theta_given  ? reader->slots[GI_SLOT_THETA].place
+                                   : frame->place;
+    gi_report_add(&reader->report, place, 1, "%s%s", fault,
+        tip_given     ? ""
+        : theta_given ? ": theta is too near to 180"
+                      : ": with a radius and without tipz the apex is at z = 0; give tipz");
+    return false;
+}
+
+static bool add_shape(GiReader *reader, GiFrame *frame, GiShapeRef *ref) {
+    GiScene *scene = reader->scene;
+    GiVec center = slot(reader, GI_SLOT_CENTER);
+    double radius = slot(reader, GI_SLOT_RADIUS).x, height = slot(reader, GI_SLOT_HEIGHT).x, tip;
+    uint32_t shader = frame->index;
+    bool added = true;
+    switch ((GlintSurfaceType)frame->type->value) {
+    case GLINT_SURFACE_SPHERE: added = gi_scene_add_sphere(scene, center, radius, shader, ref); break;
+    case GLINT_SURFACE_BOX:
+        added = gi_scene_add_box(
+            scene, slot(reader, GI_SLOT_MIN_PT), slot(reader, GI_SLOT_MAX_PT), shader, ref);
+        break;
+    case GLINT_SURFACE_CYLINDER:
+        added = gi_scene_add_cylinder(scene, center, radius, height, shader, ref);
+        break;
+    case GLINT_SURFACE_CONE:
+        if (!find_tip(reader, frame, center, radius, &tip)) return false;
+        added = gi_scene_add_cone(scene, center, radius, height, tip, shader, ref);
+        break;
+    case GLINT_SURFACE_PLANE:
+        added = gi_scene_add_plane(
+            scene, slot(reader, GI_SLOT_POINT), slot(reader, GI_SLOT_NORMAL), shader, ref);
+        break;
+    case GLINT_SURFACE_DISC:
+        added = gi_scene_add_disc(scene, slot(reader, GI_SLOT_POINT), slot(reader, GI_SLOT_NORMAL),
+            radius, shader, ref);
+        break;
+    case GLINT_SURFACE_GROUP: {
+        GiAffine matrix;
+        *ref = gi_shape_ref(GI_SHAPE_GROUP, frame->index);
+        /* Whether a product is singular does not depend on the order of its factors. */
+        if (!gi_scene_group_matrix(scene, &scene->groups.data[frame->index],
+                gi_dialect_rules(GLINT_DIALECT_GLINT), &matrix)) {
+            gi_report_add(&reader->report, frame->place, 8,
+                "the transform of this group cannot be inverted: it flattens the group, or its "
+                "numbers are too large or too small");
+            return false;
+        }
+        return true;
+    }
+    }
+    if (!added) gi_reader_out_of_memory(reader);
+    return added;
+}
+
+static void place_shape(GiReader *reader, const GiFrame *parent, GiShapeRef ref) {
+    if (!gi_scene_place(reader->scene, group_of(parent), ref)) gi_reader_out_of_memory(reader);
+}
+
+static void finish_surface(GiReader *reader, GiFrame *frame, GiFrame *parent) {
+    GiShapeRef ref;
+    if (frame->type == NULL || frame->broken || !add_shape(reader, frame, &ref)) {
+        parent->broken = true;
+        gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_SURFACE, .broken = true});
+        return;
+    }
+    place_shape(reader, parent, ref);
+    gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_SURFACE, .shape = ref});
+}
+
+/* ---------------------------------------------------------------- the whole */
+
+static void finish_scene(GiReader *reader, const GiFrame *frame) {
+    GiPlace root = reader->report.root;
+    int length = 1 + (int)strlen(reader->tags.data + frame->tag);
+    if (!reader->camera_seen) {
+        gi_report_add(&reader->report, root, length,
+            "the scene has no camera: add a `camera` element");
+    }
+    if (!reader->image_seen) {
+        gi_report_add(&reader->report, root, length,
+            "the scene has no image size: add, for example, <image>512 512</image>");
+    }
+}
+
+void gi_object_finish(GiReader *reader, GiFrame *frame, GiFrame *parent) {
+    switch (frame->element->kind) {
+    case GI_KIND_SCENE: finish_scene(reader, frame); break;
+    case GI_KIND_CAMERA: finish_camera(reader, frame); break;
+    case GI_KIND_SHADER: finish_shader(reader, frame, parent); break;
+    case GI_KIND_LIGHT: finish_light(reader, frame); break;
+    default: finish_surface(reader, frame, parent); break;
+    }
+}
+
+void gi_object_refer(GiReader *reader, GiFrame *frame, GiFrame *parent, const GiNamed *named) {
+    GiNamed copy = *named; /* naming it again may move the table */
+    switch ((GiKind)copy.kind) {
+    case GI_KIND_SCENE: break;
+    case GI_KIND_CAMERA:
+        reader->scene->camera = reader->cameras.data[copy.index];
+        reader->scene->has_camera = true;
+        break;
+    case GI_KIND_SURFACE: place_shape(reader, parent, copy.shape); break;
+    case GI_KIND_SHADER: give_shader(parent, copy.index); break;
+    case GI_KIND_LIGHT: {
+        GiLight light = reader->scene->lights.data[copy.index];
+        if (!gi_array_push(reader->memory, &reader->scene->lights, light)) {
+            gi_reader_out_of_memory(reader);
+            return;
+        }
+        break;
+    }
+    default: {
+        GiVec value = reader->names.values.data[copy.index];
+        if (!gi_value_check(reader, frame->element, value, frame->place,
+                1 + (int)strlen(reader->tags.data + frame->tag))) {
+            frame->broken = parent->broken = true;
+            copy.broken = true;
+        } else {
+            gi_object_set(reader, parent, frame->element, value, frame->place);
+        }
+        break;
+    }
+    }
+    gi_object_name(reader, frame, copy);
+}

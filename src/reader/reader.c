@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: MIT
+ * The outer loop: bytes from the source through the window into expat, whose events go to tree.c.
+ * Nothing of the document is kept but the open elements and what is named. */
+#include "reader/reader.h"
+
+#include "base/error.h"
+#include "reader/state.h"
+
+#include <string.h>
+
+enum { CHUNK_SIZE = 256 * 1024, TOKEN_LIMIT = 64 * 1024 * 1024 };
+
+/* ---------------------------------------------------------------- memory of the parser */
+
+/* Expat's allocator has no user pointer: the memory is found through the thread, and each block
+ * notes where it came from and how large it is. */
+static _Thread_local GiMemory *parser_memory;
+
+typedef union Header {
+    struct {
+        GiMemory *memory;
+        size_t size;
+    } block;
+    max_align_t align;
+} Header;
+
+static void *resize_block(void *pointer, size_t size) {
+    if (size > SIZE_MAX - sizeof(Header)) return NULL;
+    Header *old = pointer != NULL ? (Header *)pointer - 1 : NULL;
+    GiMemory *memory = old != NULL ? old->block.memory : parser_memory;
+    Header *header = gi_memory_resize(memory, old,
+        old != NULL ? old->block.size + sizeof(Header) : 0, size + sizeof(Header));
+    if (header == NULL) return NULL;
+    header->block.memory = memory;
+    header->block.size = size;
+    return header + 1;
+}
+
+static void *allocate_block(size_t size) { return resize_block(NULL, size); }
+
+static void free_block(void *pointer) {
+    if (pointer == NULL) return;
+    Header *header = (Header *)pointer - 1;
+    gi_memory_free(header->block.memory, header, header->block.size + sizeof(Header));
+}
+
+/* ---------------------------------------------------------------- stopping */
+
+void gi_reader_stop(GiReader *reader) {
+    if (reader->stopped) return;
+    reader->stopped = true;
+    XML_StopParser(reader->parser, XML_FALSE);
+}
+
+void gi_reader_out_of_memory(GiReader *reader) {
+    reader->out_of_memory = true;
+    gi_reader_stop(reader);
+}
+
+/* ---------------------------------------------------------------- what a scene may not have */
+
+static GiPlace current_place(const GiReader *reader) {
+    return (GiPlace){.offset = XML_GetCurrentByteIndex(reader->parser)};
+}
+
+/* Entities can stand for gigabytes, or for other files; no scene needs them. */
+static void XMLCALL on_entity(void *user, const XML_Char *name, int is_parameter,
+    const XML_Char *value, int value_length, const XML_Char *base, const XML_Char *system_id,
+    const XML_Char *public_id, const XML_Char *notation) {
+    GiReader *reader = user;
+    (void)is_parameter, (void)value, (void)value_length, (void)base;
+    (void)system_id, (void)public_id, (void)notation;
+    if (reader->stopped) return;
+    char quote[GI_QUOTE_SIZE];
+    gi_report_add(&reader->report, current_place(reader), 1,
+        "a scene cannot declare entities: `%s`", gi_quote(quote, name, strlen(name)));
+    gi_reader_stop(reader);
+}
+
+/* Default attributes are attributes that nobody wrote. */
+static void XMLCALL on_attribute_list(void *user, const XML_Char *element, const XML_Char *name,
+    const XML_Char *type, const XML_Char *value, int required) {
+    GiReader *reader = user;
+    (void)name, (void)type, (void)value, (void)required;
+    if (reader->stopped) return;
+    char quote[GI_QUOTE_SIZE];
+    gi_report_add(&reader->report, current_place(reader), 1,
+        "a scene cannot declare attributes: those of `%s`",
+        gi_quote(quote, element, strlen(element)));
+    gi_reader_stop(reader);
+}
+
+static void XMLCALL on_skipped_entity(void *user, const XML_Char *name, int is_parameter) {
+    GiReader *reader = user;
+    if (reader->stopped || is_parameter) return;
+    char quote[GI_QUOTE_SIZE];
+    gi_report_add(&reader->report, current_place(reader), 1,
+        "unknown entity `&%s;`: only &lt; &gt; &amp; &quot; and &apos; are known",
+        gi_quote(quote, name, strlen(name)));
+}
+
+static void XMLCALL on_declaration(
+    void *user, const XML_Char *version, const XML_Char *encoding, int standalone) {
+    GiReader *reader = user;
+    (void)version, (void)standalone;
+    if (encoding == NULL) return;
+    size_t i = 0;
+    for (; i + 1 < sizeof reader->encoding && encoding[i] != '\0'; i++) {
+        reader->encoding[i] = gi_lower(encoding[i]);
+    }
+    if (strcmp(reader->encoding, "iso-8859-1") == 0) {
+        reader->window.encoding = GI_ENCODING_LATIN1;
+    }
+    memcpy(reader->encoding, encoding, i);
+}
+
+/* ---------------------------------------------------------------- window and places */
+
+/* Gives lines and columns to the places that are still wanted, before their bytes go. The frames
+ * are in the order of the file, so that those without a line are on top. */
+static void locate_places(GiReader *reader) {
+    size_t first = reader->frames.count;
+    while (first > 0 && reader->frames.data[first - 1].place.line == 0) first--;
+    for (size_t i = first; i < reader->frames.count; i++) {
+        gi_window_locate(&reader->window, &reader->frames.data[i].place);
+    }
+    for (int i = 0; i < GI_SLOT_COUNT; i++) {
+        if (gi_reader_is_given(reader, (GiSlot)i)) {
+            gi_window_locate(&reader->window, &reader->slots[i].place);
+        }
+    }
+    for (size_t i = 0; i < reader->segment_count; i++) {
+        gi_window_locate(&reader->window, &reader->segments[i].place);
+    }
+}
+
+static int64_t window_end(const GiReader *reader) {
+    return reader->window.base + (int64_t)reader->window.size;
+}
+
+/* The first byte that expat has not dealt with. */
+static int64_t parsed_end(const GiReader *reader) {
+    int64_t offset = XML_GetCurrentByteIndex(reader->parser), end = window_end(reader);
+    return offset < reader->window.base ? reader->window.base : offset > end ? end : offset;
+}
+
+/* Makes the window small again, when that is worth moving what stays. */
+static void slide_window(GiReader *reader, size_t more) {
+    GiWindow *window = &reader->window;
+    int64_t keep = parsed_end(reader) - GI_WINDOW_KEEP;
+    size_t room = window->capacity - window->size;
+    if (room >= more || keep - window->base < GI_WINDOW_KEEP) return;
+    gi_report_capture(&reader->report, window_end(reader) - GI_WINDOW_CONTEXT);
+    locate_places(reader);
+    gi_window_discard(window, keep);
+}
+
+/* ---------------------------------------------------------------- the loop */
+
+typedef struct Feed {
+    const GiReaderSource *source;
+    int64_t total; /* bytes read */
+    bool ended;
+} Feed;
+
+/* Reads up to `wanted` bytes behind the window. */
+static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintError *error) {
+    const GiReaderSource *source = feed->source;
+    const GlintMonitor *monitor = source->monitor;
+    if (!gi_window_reserve(&reader->window, wanted)) return gi_error_memory(error);
+    for (size_t got = 0; got < wanted && !feed->ended;) {
+        if (monitor != NULL && monitor->cancelled != NULL && monitor->cancelled(monitor->user)) {
+            return gi_error_set(error, GLINT_CANCELLED, "cancelled while reading the scene");
+        }
+        size_t size = wanted - got < CHUNK_SIZE ? wanted - got : CHUNK_SIZE;
+        int64_t count =
+            source->read(source->user, reader->window.data + reader->window.size, size);
+        if (count < 0 || (uint64_t)count > size) {
+            return gi_error_set_path(
+                error, GLINT_ERROR_FILE, source->name, "the file cannot be read");
+        }
+        feed->ended = count == 0;
+        got += (size_t)count;
+        reader->window.size += (size_t)count;
+        feed->total += count;
+    }
+    if (monitor != NULL && monitor->progress != NULL) {
+        double total = (double)source->total_size;
+        double fraction = total > 0 ? (double)feed->total / total : -1;
+        monitor->progress(monitor->user, GLINT_PHASE_READ, fraction < 1 ? fraction : 1);
+    }
+    return GLINT_OK;
+}
+
+static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
+    size_t chunk = feed->source->chunk_size > 0 ? feed->source->chunk_size : CHUNK_SIZE;
+    bool first = true;
+    while (!feed->ended && !reader->stopped) {
+        /* As much again as is waiting: a token that spans many chunks is scanned from its start
+         * each time, which adds up to no more than twice its length this way. */
+        size_t waiting = (size_t)(window_end(reader) - parsed_end(reader));
+        size_t wanted = waiting > chunk ? waiting : chunk;
+        if (waiting > TOKEN_LIMIT) {
+            gi_report_add(&reader->report, (GiPlace){.offset = parsed_end(reader)}, 1,
+                "what begins here (a comment or a tag) does not end within 64 MiB");
+            reader->stopped = true;
+            return GLINT_OK;
+        }
+        if (first && wanted < 4) wanted = 4; /* the encoding shows in the first bytes */
+        slide_window(reader, wanted);
+        size_t old_size = reader->window.size;
+        GlintStatus status = read_more(reader, feed, wanted, error);
+        if (status != GLINT_OK) return status;
+        if (first) gi_window_detect(&reader->window);
+        first = false;
+        parser_memory = reader->memory;
+        enum XML_Status parsed = XML_Parse(reader->parser,
+            (const char *)reader->window.data + old_size, (int)(reader->window.size - old_size),
+            feed->ended);
+        if (parsed != XML_STATUS_ERROR) continue;
+        if (!reader->stopped) {
+            int64_t place = parsed_end(reader);
+            /* The message may look at what follows, and shows the rest of the line. */
+            if (window_end(reader) - place < GI_WINDOW_CONTEXT) {
+                status = read_more(reader, feed, GI_WINDOW_CONTEXT, error);
+                if (status != GLINT_OK) return status;
+            }
+            gi_malformed_report(reader);
+        }
+        reader->stopped = true;
+    }
+    return GLINT_OK;
+}
+
+static bool open_parser(GiReader *reader) {
+    XML_Memory_Handling_Suite suite = {allocate_block, resize_block, free_block};
+    parser_memory = reader->memory;
+    reader->parser = XML_ParserCreate_MM(NULL, &suite, NULL);
+    if (reader->parser == NULL) return false;
+    XML_SetUserData(reader->parser, reader);
+    XML_SetElementHandler(reader->parser, gi_tree_start, gi_tree_end);
+    XML_SetCharacterDataHandler(reader->parser, gi_tree_text);
+    XML_SetEntityDeclHandler(reader->parser, on_entity);
+    XML_SetAttlistDeclHandler(reader->parser, on_attribute_list);
+    XML_SetSkippedEntityHandler(reader->parser, on_skipped_entity);
+    XML_SetXmlDeclHandler(reader->parser, on_declaration);
+    return true;
+}
+
+static void open_reader(GiReader *reader, GiScene *scene) {
+    memset(reader, 0, sizeof *reader);
+    reader->scene = scene;
+    reader->memory = scene->memory;
+    gi_element_index_init(&reader->elements);
+    gi_window_init(&reader->window, scene->memory);
+    gi_report_init(&reader->report, scene->memory, &reader->window);
+    gi_names_init(&reader->names, scene->memory);
+    for (const GiElement *e = gi_elements; e->name != NULL; e++) {
+        if (e->default_text != NULL) reader->defaults[e->slot] = gi_value_parse_default(e->default_text);
+    }
+}
+
+static void close_reader(GiReader *reader) {
+    if (reader->parser != NULL) XML_ParserFree(reader->parser);
+    gi_array_free(reader->memory, &reader->frames);
+    gi_array_free(reader->memory, &reader->tags);
+    gi_array_free(reader->memory, &reader->cameras);
+    gi_names_reset(&reader->names);
+    gi_report_reset(&reader->report);
+    gi_window_reset(&reader->window);
+}
+
+GlintStatus gi_reader_load(
+    GiScene *scene, const GiReaderSource *source, GiReaderResult *result, GlintError *error) {
+    Feed feed = {.source = source};
+    GiReader *reader = gi_memory_allocate(scene->memory, sizeof *reader);
+    if (reader == NULL) return gi_error_memory(error);
+    open_reader(reader, scene);
+    GlintStatus status = open_parser(reader) ? parse(reader, &feed, error) : gi_error_memory(error);
+    if (status == GLINT_OK && (reader->out_of_memory || reader->report.out_of_memory)) {
+        status = gi_error_memory(error);
+    }
+    if (status == GLINT_OK && reader->report.error_count > 0) {
+        while (!feed.ended && window_end(reader) - parsed_end(reader) < GI_WINDOW_CONTEXT &&
+               status == GLINT_OK) {
+            status = read_more(reader, &feed, GI_WINDOW_CONTEXT, error);
+        }
+        gi_report_capture(&reader->report, INT64_MAX);
+        if (status == GLINT_OK) {
+            gi_report_emit(&reader->report, source->name, source->diagnostic,
+                source->diagnostic_user, error);
+            status = GLINT_ERROR_SCENE;
+        }
+    }
+    if (status == GLINT_OK) {
+        scene->dialect = source->dialect != GLINT_DIALECT_AUTO   ? source->dialect
+                         : reader->dialect != GLINT_DIALECT_AUTO ? reader->dialect
+                                                                 : gi_dialect_detect(reader->evidence);
+    }
+    if (result != NULL) result->byte_count = feed.total;
+    close_reader(reader);
+    gi_memory_free(scene->memory, reader, sizeof *reader);
+    return status;
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT
+ * From XML to the model, in one pass over a stream. */
+#pragma once
+
+#include "scene/scene.h"
+
+typedef struct GiReaderSource {
+    GlintReadFn read;
+    void *user;
+    const char *name;            /* for messages */
+    int64_t total_size;          /* bytes, for progress; -1: not known */
+    const GlintMonitor *monitor; /* null: none */
+    GlintDiagnosticFn diagnostic; /* null: none */
+    void *diagnostic_user;
+    GlintDialect dialect; /* AUTO: what the file says or shows */
+    size_t chunk_size;    /* bytes handed to the parser at once; 0: a good size */
+} GiReaderSource;
+
+typedef struct GiReaderResult {
+    int64_t byte_count; /* read from the source */
+} GiReaderResult;
+
+/* Fills an empty scene. All memory, that of the scene and that of reading, comes from
+ * scene->memory; only the scene's is still in use afterwards. Errors:
+ *   SCENE      the file has errors: all are given to the diagnostic callback (on this thread, after
+ *              reading, in the order of the file), the first in *error
+ *   FILE       read failed
+ *   MEMORY, CANCELLED
+ * After an error the scene holds a part of the file and can only be reset. */
+GlintStatus gi_reader_load(
+    GiScene *scene, const GiReaderSource *source, GiReaderResult *result, GlintError *error);

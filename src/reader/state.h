@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT
+ * What the reader knows in the middle of a file. The open elements form a stack of frames on the
+ * heap; the values of the object being read stand in slots, one per meaning. Objects with slots do
+ * not nest within their own kind, so that one set of slots is enough; groups, which nest, keep
+ * nothing in slots. */
+#pragma once
+
+#include "reader/element.h"
+#include "reader/name.h"
+#include "reader/report.h"
+#include "scene/scene.h"
+
+#include <expat.h>
+
+enum {
+    GI_DEPTH_LIMIT = 100000,
+    GI_NAME_LIMIT = 4096,    /* bytes of a name or ref */
+    GI_TEXT_LIMIT = 4096,    /* characters of a value, runs of white space counted once */
+    GI_SEGMENT_LIMIT = 256   /* pieces of a value whose places are told apart */
+};
+
+typedef enum GiSkip {
+    GI_SKIP_NONE,
+    GI_SKIP_IGNORED, /* content of an element with a ref */
+    GI_SKIP_UNKNOWN  /* content of something that is not known; its names count as broken */
+} GiSkip;
+
+typedef struct GiFrame {
+    GiPlace place;            /* of its `<` */
+    const GiElement *element; /* null when skipped */
+    const GiType *type;       /* null: none, or not known */
+    uint32_t contexts;        /* of its children */
+    uint32_t index;           /* a group's index, or a surface's shader */
+    uint32_t tag, name;       /* into tags: the tag as written, the name attribute ("" for none) */
+    uint8_t skip;             /* GiSkip */
+    bool broken;              /* an error inside is reported: do not check the whole */
+    bool text_reported;
+} GiFrame;
+
+/* A piece of a value's text that stands in the file without interruption. */
+typedef struct GiSegment {
+    size_t index; /* into text */
+    GiPlace place;
+} GiSegment;
+
+typedef struct GiSlotValue {
+    GiVec value;
+    GiPlace place;
+} GiSlotValue;
+
+typedef struct GiReader {
+    GiScene *scene;
+    GiMemory *memory;
+    XML_Parser parser;
+    GiElementIndex elements;
+    GiWindow window;
+    GiReport report;
+    GiNames names;
+    GI_ARRAY(GiFrame) frames;
+    GI_ARRAY(char) tags;
+    GI_ARRAY(GiCamera) cameras; /* the named ones */
+    GiSlotValue slots[GI_SLOT_COUNT];
+    uint64_t given; /* a bit per slot */
+    GiVec defaults[GI_SLOT_COUNT];
+    unsigned evidence;
+    GlintDialect dialect; /* the attribute of the scene */
+    bool stopped;         /* no event counts any more */
+    bool out_of_memory;
+    bool camera_seen, image_seen; /* with or without errors */
+    char encoding[40];            /* as declared */
+
+    char text[GI_TEXT_LIMIT];
+    size_t text_size;
+    int64_t text_next; /* offset at which a further piece continues the last segment */
+    bool text_overflow;
+    GiSegment segments[GI_SEGMENT_LIMIT];
+    size_t segment_count;
+} GiReader;
+
+static inline GiFrame *gi_reader_top(GiReader *reader) {
+    return &reader->frames.data[reader->frames.count - 1];
+}
+/* The frame below the top one, or null. */
+static inline GiFrame *gi_reader_parent(GiReader *reader) {
+    size_t count = reader->frames.count;
+    return count < 2 ? NULL : &reader->frames.data[count - 2];
+}
+static inline bool gi_reader_is_given(const GiReader *reader, GiSlot slot) {
+    return (reader->given >> slot & 1) != 0;
+}
+
+/* ---- reader.c */
+void gi_reader_stop(GiReader *reader);
+void gi_reader_out_of_memory(GiReader *reader);
+
+/* ---- tree.c: the events of the parser */
+void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **attributes);
+void XMLCALL gi_tree_end(void *user, const XML_Char *tag);
+void XMLCALL gi_tree_text(void *user, const XML_Char *text, int size);
+/* The place of an attribute's name (or of its value) in the start tag that is being handled; length
+ * in characters. The tag itself when it cannot be found. */
+GiPlace gi_tree_attribute(GiReader *reader, int index, bool value, int *length);
+
+/* ---- value.c: text to numbers */
+void gi_value_begin(GiReader *reader);
+void gi_value_append(GiReader *reader, const char *text, size_t size, int64_t offset);
+/* Reads the text of the element as its kind. False, with the error reported, when it is wrong. */
+bool gi_value_finish(GiReader *reader, const GiFrame *frame, GiVec *value);
+/* Whether a value passes the element's check; otherwise reports. */
+bool gi_value_check(
+    GiReader *reader, const GiElement *element, GiVec value, GiPlace place, int length);
+/* Numbers without checks, for the table's defaults. */
+GiVec gi_value_parse_default(const char *text);
+
+/* ---- object.c: values to the model */
+void gi_object_begin(GiReader *reader, GiFrame *frame);
+/* A value element of the parent (may be the scene, a group or another object) has this value. */
+void gi_object_set(GiReader *reader, GiFrame *parent, const GiElement *element, GiVec value,
+    GiPlace place);
+/* Adds the object of the frame to the model and tells the names and the parent. */
+void gi_object_finish(GiReader *reader, GiFrame *frame, GiFrame *parent);
+/* Uses a named thing as if it had been written here. */
+void gi_object_refer(
+    GiReader *reader, GiFrame *frame, GiFrame *parent, const GiNamed *named);
+/* Remembers what the frame stands for under its name, when it has one. */
+void gi_object_name(GiReader *reader, const GiFrame *frame, GiNamed named);
+/* Remembers a value. */
+void gi_object_name_value(GiReader *reader, const GiFrame *frame, GiVec value);
+
+/* ---- malformed.c */
+/* Reports what the parser stopped at. */
+void gi_malformed_report(GiReader *reader);

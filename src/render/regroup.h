@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT
+ * Puts rays that run to one point into an order in which neighbours are close together, so that
+ * the kernels' bundles of 256 and packets of 16 are narrow. */
+#pragma once
+
+#include "math/vec.h"
+
+#include <stdint.h>
+
+enum { GI_REGROUP_LIMIT = 4096 };
+
+typedef struct GiRegroup {
+    GiVec direction[GI_REGROUP_LIMIT]; /* in: of each ray, any length */
+    uint16_t order[GI_REGROUP_LIMIT];  /* out: a permutation */
+    /* private */
+    float a[GI_REGROUP_LIMIT], b[GI_REGROUP_LIMIT];
+    uint16_t sorted[GI_REGROUP_LIMIT];
+} GiRegroup;
+
+void gi_regroup(GiRegroup *regroup, int count);

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+#include "render/render.h"
+
+#include "render/tile.h"
+
+#include <string.h>
+
+typedef struct Render {
+    const GiWorld *world;
+    const GiRenderArea *area;
+    const GlintMonitor *monitor;
+    float *pixels;
+    GiTileScratch **scratch;
+    GiRenderCounts *counts; /* a worker each */
+    int columns, rows;
+    _Atomic int next, done;
+    _Atomic bool stop;
+} Render;
+
+/* On the caller's thread only. */
+static void report(Render *render) {
+    const GlintMonitor *monitor = render->monitor;
+    if (monitor == NULL) return;
+    if (monitor->progress != NULL) {
+        double done = (double)atomic_load_explicit(&render->done, memory_order_relaxed);
+        monitor->progress(
+            monitor->user, GLINT_PHASE_TRACE, done / ((double)render->columns * render->rows));
+    }
+    if (monitor->cancelled != NULL && monitor->cancelled(monitor->user)) {
+        atomic_store(&render->stop, true);
+    }
+}
+
+static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
+    (void)begin;
+    (void)end;
+    Render *render = context;
+    GiRenderCounts counts = {0};
+    GiTileControl control = {&render->stop, worker == 0 ? render->monitor : NULL};
+    for (;;) {
+        int tile = atomic_fetch_add_explicit(&render->next, 1, memory_order_relaxed);
+        if (tile >= render->columns * render->rows || atomic_load(&render->stop)) break;
+        int x = tile % render->columns * GI_TILE_SIDE, y = tile / render->columns * GI_TILE_SIDE;
+        gi_tile_draw(render->world, render->area, x, y, render->pixels, render->scratch[worker],
+            &counts, &control);
+        atomic_fetch_add_explicit(&render->done, 1, memory_order_relaxed);
+        if (worker == 0) report(render);
+    }
+    /* A worker may be called more than once. */
+    render->counts[worker].camera_rays += counts.camera_rays;
+    render->counts[worker].shadow_rays += counts.shadow_rays;
+}
+
+GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *area,
+    const GlintMonitor *monitor, float *pixels, GiRenderCounts *counts) {
+    GiMemory *memory = world->scene->memory;
+    size_t workers = (size_t)gi_pool_worker_count(pool);
+    Render render = {.world = world, .area = area, .monitor = monitor, .pixels = pixels};
+    render.columns = (area->crop_width + GI_TILE_SIDE - 1) / GI_TILE_SIDE;
+    render.rows = (area->crop_height + GI_TILE_SIDE - 1) / GI_TILE_SIDE;
+    size_t scratch_size = workers * sizeof *render.scratch;
+    size_t counts_size = workers * sizeof *render.counts;
+    render.scratch = gi_memory_allocate(memory, scratch_size);
+    render.counts = gi_memory_allocate(memory, counts_size);
+    GlintStatus status = GLINT_ERROR_MEMORY;
+    if (render.scratch == NULL || render.counts == NULL) goto done;
+    memset(render.scratch, 0, scratch_size);
+    memset(render.counts, 0, counts_size);
+    for (size_t i = 0; i < workers; i++) {
+        render.scratch[i] = gi_tile_scratch_create(memory);
+        if (render.scratch[i] == NULL) goto done;
+    }
+    report(&render);
+    gi_parallel_for(pool, workers, 1, draw_tiles, &render);
+    report(&render);
+    *counts = (GiRenderCounts){0};
+    for (size_t i = 0; i < workers; i++) {
+        counts->camera_rays += render.counts[i].camera_rays;
+        counts->shadow_rays += render.counts[i].shadow_rays;
+    }
+    bool whole = atomic_load(&render.done) == render.columns * render.rows;
+    status = atomic_load(&render.stop) && !whole ? GLINT_CANCELLED : GLINT_OK;
+done:
+    for (size_t i = 0; render.scratch != NULL && i < workers; i++) {
+        gi_tile_scratch_destroy(memory, render.scratch[i]);
+    }
+    gi_memory_free(memory, render.scratch, scratch_size);
+    gi_memory_free(memory, render.counts, counts_size);
+    return status;
+}

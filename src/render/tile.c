@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: MIT */
+#include "render/tile.h"
+
+#include "render/regroup.h"
+#include "shade/shade.h"
+
+enum {
+    BLOCK_SIDE = 16, /* a bundle of camera rays: 16 x 16 pixels */
+    PACKET_SIDE = 4, /* a packet: 4 x 4 */
+    PIXEL_COUNT = GI_TILE_SIDE * GI_TILE_SIDE
+};
+
+/* A camera ray that met something. */
+typedef struct Hit {
+    GiVec point, normal, toward_viewer;
+    double error; /* distance within which a ray from here might meet its own surface */
+    uint32_t pixel, shader, shape;
+} Hit;
+
+/* What a light will add to a hit unless something is in between. */
+typedef struct Pending {
+    uint32_t hit;
+    GiVec light;
+} Pending;
+
+struct GiTileScratch {
+    GiBundle bundle;
+    GiRegroup regroup;
+    Hit hits[PIXEL_COUNT];
+    Pending pending[PIXEL_COUNT];
+    GiVec color[PIXEL_COUNT]; /* of the sample being drawn */
+    GiVec sum[PIXEL_COUNT];   /* of the samples before */
+    int hit_count;
+};
+
+GiTileScratch *gi_tile_scratch_create(GiMemory *memory) {
+    return gi_memory_allocate_lines(memory, 1, sizeof(GiTileScratch));
+}
+
+void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch) {
+    gi_memory_free_lines(memory, scratch, 1, sizeof(GiTileScratch));
+}
+
+/* The tile's pixels that lie in the area. */
+typedef struct Extent { int x, y, width, height; } Extent;
+
+/* ---------------------------------------------------------------- camera rays */
+
+static bool stopped(const GiTileControl *control) {
+    const GlintMonitor *monitor = control->monitor;
+    if (monitor != NULL && monitor->cancelled != NULL && monitor->cancelled(monitor->user)) {
+        atomic_store(control->stop, true);
+    }
+    return atomic_load_explicit(control->stop, memory_order_relaxed);
+}
+
+static void keep_hit(const GiWorld *world, GiTileScratch *scratch, int i, uint32_t pixel) {
+    const GiBundle *bundle = &scratch->bundle;
+    GiShapeRef ref = {bundle->shape[i]};
+    GiVec origin = {bundle->ox[i], bundle->oy[i], bundle->oz[i]};
+    GiVec direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]};
+    GiSurfacePoint at = gi_shape_point(&world->shapes, ref, origin, direction, bundle->t[i],
+        world->rules->cone_geometric);
+    uint32_t shader = gi_shape_info(&world->shapes, ref)->shader;
+    scratch->hits[scratch->hit_count++] = (Hit){at.point, at.normal, gi_negate(direction), at.error,
+        pixel, shader, ref.bits};
+    scratch->color[pixel] = gi_shade_emit(&world->scene->shaders.data[shader], at.normal);
+}
+
+/* The rays of a parallel camera have no point in common. */
+static void trace_apart(const GiWorld *world, GiBundle *bundle) {
+    for (int i = 0; i < bundle->count; i++) {
+        GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
+            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
+            bundle->skip[i]};
+        GiTraceHit hit;
+        bool any = world->kernel->closest(&world->trace, &ray, &hit);
+        bundle->shape[i] = any ? hit.shape.bits : GI_SHAPE_NONE;
+        if (any) bundle->t[i] = hit.t;
+    }
+}
+
+/* One bundle: the pixels of a block, packet by packet. */
+static void trace_block(const GiWorld *world, const GiRenderArea *area, const Extent *extent,
+    int block_x, int block_y, double offset_x, double offset_y, GiTileScratch *scratch) {
+    GiBundle *bundle = &scratch->bundle;
+    uint32_t pixels[GI_BUNDLE_SIZE];
+    int count = 0;
+    for (int packet = 0; packet < GI_PACKET_COUNT; packet++) {
+        int packet_x = block_x + packet % PACKET_SIDE * PACKET_SIDE;
+        int packet_y = block_y + packet / PACKET_SIDE * PACKET_SIDE;
+        for (int i = 0; i < GI_PACKET_SIZE; i++) {
+            int x = packet_x + i % PACKET_SIDE, y = packet_y + i / PACKET_SIDE;
+            if (x >= extent->width || y >= extent->height) continue;
+            /* Rows of the picture run down, b runs up. */
+            int row = area->height - 1 - (extent->y + y);
+            GiVec origin, direction;
+            gi_view_ray(&world->view, (extent->x + x + offset_x) / area->width,
+                (row + offset_y) / area->height, &origin, &direction);
+            bundle->ox[count] = origin.x, bundle->oy[count] = origin.y, bundle->oz[count] = origin.z;
+            bundle->dx[count] = direction.x, bundle->dy[count] = direction.y;
+            bundle->dz[count] = direction.z;
+            bundle->t_min[count] = 0;
+            bundle->t_max[count] = INFINITY;
+            bundle->skip[count] = GI_SHAPE_NONE;
+            pixels[count++] = (uint32_t)(y * GI_TILE_SIDE + x);
+        }
+    }
+    if (count == 0) return;
+    bundle->count = count;
+    bundle->apex = world->view.eye;
+    bundle->side = world->view.across;
+    if (world->view.parallel) {
+        trace_apart(world, bundle);
+    } else {
+        world->kernel->bundle_closest(&world->trace, bundle);
+    }
+    for (int i = 0; i < count; i++) {
+        if (bundle->shape[i] != GI_SHAPE_NONE) {
+            keep_hit(world, scratch, i, pixels[i]);
+        } else {
+            scratch->color[pixels[i]] = world->scene->back_color;
+        }
+    }
+}
+
+/* ---------------------------------------------------------------- lights */
+
+static void trace_pending(const GiWorld *world, const GiLight *light, int count,
+    GiTileScratch *scratch, const GiTileControl *control) {
+    const GiRules *rules = world->rules;
+    for (int i = 0; i < count; i++) {
+        const Hit *hit = &scratch->hits[scratch->pending[i].hit];
+        scratch->regroup.direction[i] = gi_sub(light->position, hit->point);
+    }
+    gi_regroup(&scratch->regroup, count);
+    for (int begin = 0; begin < count && !stopped(control); begin += GI_BUNDLE_SIZE) {
+        GiBundle *bundle = &scratch->bundle;
+        bundle->count = count - begin < GI_BUNDLE_SIZE ? count - begin : GI_BUNDLE_SIZE;
+        bundle->apex = light->position;
+        bundle->side = gi_vec(0, 0, 0);
+        for (int i = 0; i < bundle->count; i++) {
+            int at = scratch->regroup.order[begin + i];
+            const Hit *hit = &scratch->hits[scratch->pending[at].hit];
+            GiVec d = scratch->regroup.direction[at];
+            bundle->ox[i] = hit->point.x, bundle->oy[i] = hit->point.y, bundle->oz[i] = hit->point.z;
+            bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
+            double away = rules->shadow_distance > 0 ? rules->shadow_distance : hit->error;
+            bundle->t_min[i] = away / gi_length(d);
+            bundle->t_max[i] = 1;
+            GiShapeRef own = gi_shape_unplaced(&world->shapes, (GiShapeRef){hit->shape});
+            bool skip = !rules->sphere_shadows_itself && gi_shape_kind(own) == GI_SHAPE_SPHERE;
+            bundle->skip[i] = skip ? hit->shape : GI_SHAPE_NONE;
+        }
+        world->kernel->bundle_any(&world->trace, bundle);
+        for (int i = 0; i < bundle->count; i++) {
+            if (bundle->shape[i] != GI_SHAPE_NONE) continue;
+            const Pending *pending = &scratch->pending[scratch->regroup.order[begin + i]];
+            GiVec *color = &scratch->color[scratch->hits[pending->hit].pixel];
+            *color = gi_add(*color, pending->light);
+        }
+    }
+}
+
+/* Adds one light to all hits. */
+static void add_light(
+    const GiWorld *world, const GiLight *light, GiTileScratch *scratch, GiRenderCounts *counts,
+    const GiTileControl *control) {
+    int count = 0;
+    for (int i = 0; i < scratch->hit_count; i++) {
+        const Hit *hit = &scratch->hits[i];
+        const GiShader *shader = &world->scene->shaders.data[hit->shader];
+        if (light->type != GLINT_LIGHT_POINT) {
+            GiVec *color = &scratch->color[hit->pixel];
+            *color = gi_add(*color, gi_shade_ambient(shader, light, hit->normal));
+            continue;
+        }
+        GiVec d = gi_sub(light->position, hit->point);
+        double square = gi_dot(d, d);
+        if (!(square > 0)) continue; /* the light is on the surface */
+        GiVec factor = gi_shade_reflect(
+            shader, world->rules, hit->normal, hit->toward_viewer, gi_scale(d, 1 / sqrt(square)));
+        GiVec strength = gi_light_strength(light, world->rules, square);
+        GiVec adds = gi_multiply(strength, factor);
+        if (gi_vec_is_zero(adds)) continue;
+        scratch->pending[count++] = (Pending){(uint32_t)i, adds};
+    }
+    if (count > 0) trace_pending(world, light, count, scratch, control);
+    counts->shadow_rays += (uint64_t)count;
+}
+
+/* ---------------------------------------------------------------- the tile */
+
+/* One of the n x n samples of every pixel. */
+static void draw_sample(const GiWorld *world, const GiRenderArea *area, const Extent *extent,
+    double offset_x, double offset_y, GiTileScratch *scratch, GiRenderCounts *counts,
+    const GiTileControl *control) {
+    scratch->hit_count = 0;
+    for (int y = 0; y < extent->height; y += BLOCK_SIDE) {
+        if (stopped(control)) return;
+        for (int x = 0; x < extent->width; x += BLOCK_SIDE) {
+            trace_block(world, area, extent, x, y, offset_x, offset_y, scratch);
+        }
+    }
+    counts->camera_rays += (uint64_t)extent->width * (uint64_t)extent->height;
+    const GiScene *scene = world->scene;
+    for (size_t i = 0; i < scene->lights.count && !stopped(control); i++) {
+        add_light(world, &scene->lights.data[i], scratch, counts, control);
+    }
+}
+
+void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, float *pixels,
+    GiTileScratch *scratch, GiRenderCounts *counts, const GiTileControl *control) {
+    Extent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
+    if (extent.width > GI_TILE_SIDE) extent.width = GI_TILE_SIDE;
+    if (extent.height > GI_TILE_SIDE) extent.height = GI_TILE_SIDE;
+    const GiScene *scene = world->scene;
+    int n = (int)floor(sqrt((double)scene->samples) + 0.5);
+    if (n < 1) n = 1;
+    for (int i = 0; i < PIXEL_COUNT; i++) scratch->sum[i] = gi_vec(0, 0, 0);
+    for (int sample = 0; sample < n * n; sample++) {
+        draw_sample(world, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n, scratch,
+            counts, control);
+        if (stopped(control)) return;
+        for (int row = 0; row < extent.height; row++) {
+            for (int i = row * GI_TILE_SIDE; i < row * GI_TILE_SIDE + extent.width; i++) {
+                scratch->sum[i] = gi_add(scratch->sum[i], scratch->color[i]);
+            }
+        }
+    }
+    double exposure = scene->exposure > 0 ? scene->exposure : 1;
+    for (int row = 0; row < extent.height; row++) {
+        float *to = pixels + 3 * ((size_t)(y + row) * (size_t)area->crop_width + (size_t)x);
+        for (int column = 0; column < extent.width; column++) {
+            GiVec sum = scratch->sum[row * GI_TILE_SIDE + column];
+            *to++ = (float)(sum.x / (n * n) * exposure);
+            *to++ = (float)(sum.y / (n * n) * exposure);
+            *to++ = (float)(sum.z / (n * n) * exposure);
+        }
+    }
+}

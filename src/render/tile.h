@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT
+ * One square of the picture, drawn by one worker in stages: camera rays to hits, hits and lights to
+ * shadow rays, shadow rays to light. A stage works on all the tile's pixels before the next
+ * begins, so that rays meet the kernels in numbers. */
+#pragma once
+
+#include "render/render.h"
+
+enum { GI_TILE_SIDE = 64 };
+
+typedef struct GiTileScratch GiTileScratch;
+
+GiTileScratch *gi_tile_scratch_create(GiMemory *memory); /* null: no memory */
+void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch);
+
+/* How a tile learns that it is to stop: by the flag, and on the caller's thread by asking. */
+typedef struct GiTileControl {
+    _Atomic bool *stop;
+    const GlintMonitor *monitor; /* null on the other workers */
+} GiTileControl;
+
+/* Draws the part of the tile with corner (x, y) that lies in the area. control is asked every few
+ * hundred rays; when it says stop the tile stays unfinished. */
+void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, float *pixels,
+    GiTileScratch *scratch, GiRenderCounts *counts, const GiTileControl *control);

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT
+ * A committed scene: everything tracing needs, immutable. */
+#pragma once
+
+#include "accel/tree.h"
+#include "camera/camera.h"
+#include "kernel/kernel.h"
+#include "scene/scene.h"
+
+typedef struct GiWorld {
+    const GiScene *scene;
+    const GiRules *rules;
+    const GiKernel *kernel;
+    GiShapes shapes;
+    GiTreeStore store;
+    GiTrace trace;
+    GiView view;
+    size_t primitive_count;
+    GI_ARRAY(GiShapeRef) refs; /* groups spread out; empty again once the tree stands */
+    GI_ARRAY(GiPlacement) placements;
+    GI_ARRAY(GiTransform) transforms;
+} GiWorld;
+
+/* Spreads out the groups and builds the tree. The scene must have a camera, an image and a dialect,
+ * and stay as it is while the world lives; its lists of children are released. *world is
+ * zeroed first; on failure it can be reset. Errors: SCENE, MEMORY, CANCELLED. */
+GlintStatus gi_world_commit(GiWorld *world, GiScene *scene, const GiKernel *kernel, GiPool *pool,
+    const GlintMonitor *monitor, GlintError *error);
+void gi_world_reset(GiWorld *world, GiMemory *memory);

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT
+ * Workers sleep on a condition until a loop is announced by a new generation number, claim blocks
+ * from one atomic counter, and report back. The caller returns when every worker that entered the
+ * loop has left it, so the loop's data may live on the caller's stack. */
+#include "sched/pool.h"
+
+#include "port/machine.h"
+
+#include <pthread.h>
+#include <string.h>
+
+typedef struct Loop {
+    size_t count, block;
+    GiParallelFn function;
+    void *context;
+    _Atomic size_t next;
+} Loop;
+
+struct GiPool {
+    GiMemory *memory;
+    int worker_count;   /* with the caller */
+    int started;        /* threads */
+    pthread_t *threads;
+    size_t threads_size; /* bytes */
+    pthread_mutex_t mutex;
+    pthread_cond_t wake, done;
+    Loop loop;
+    unsigned generation;
+    int active; /* workers inside the loop */
+    bool quit;
+};
+
+enum { WORKER_LIMIT = 1024 };
+
+static void work(Loop *loop, int worker) {
+    for (;;) {
+        size_t begin = atomic_fetch_add_explicit(&loop->next, loop->block, memory_order_relaxed);
+        if (begin >= loop->count) return;
+        size_t end = loop->count - begin < loop->block ? loop->count : begin + loop->block;
+        loop->function(loop->context, begin, end, worker);
+    }
+}
+
+static void *run_worker(void *argument) {
+    GiPool *pool = argument;
+    pthread_mutex_lock(&pool->mutex);
+    int worker = ++pool->started;
+    unsigned seen = 0;
+    for (;;) {
+        while (!pool->quit && pool->generation == seen) pthread_cond_wait(&pool->wake, &pool->mutex);
+        if (pool->quit) break;
+        seen = pool->generation;
+        pool->active++;
+        pthread_mutex_unlock(&pool->mutex);
+        work(&pool->loop, worker);
+        pthread_mutex_lock(&pool->mutex);
+        if (--pool->active == 0) pthread_cond_signal(&pool->done);
+    }
+    pthread_mutex_unlock(&pool->mutex);
+    return NULL;
+}
+
+GlintStatus gi_pool_create(GiMemory *memory, int thread_count, GiPool **result) {
+    if (thread_count <= 0) thread_count = gi_machine_core_count();
+    if (thread_count > WORKER_LIMIT) thread_count = WORKER_LIMIT;
+    GiPool *pool = gi_memory_allocate(memory, sizeof *pool);
+    if (pool == NULL) return GLINT_ERROR_MEMORY;
+    memset(pool, 0, sizeof *pool);
+    pool->memory = memory;
+    pool->worker_count = 1;
+    pthread_mutex_init(&pool->mutex, NULL);
+    pthread_cond_init(&pool->wake, NULL);
+    pthread_cond_init(&pool->done, NULL);
+    if (thread_count > 1) {
+        pool->threads_size = (size_t)(thread_count - 1) * sizeof *pool->threads;
+        pool->threads = gi_memory_allocate(memory, pool->threads_size);
+        if (pool->threads == NULL) {
+            gi_pool_destroy(pool);
+            return GLINT_ERROR_MEMORY;
+        }
+        for (int i = 0; i < thread_count - 1; i++) {
+            if (pthread_create(&pool->threads[i], NULL, run_worker, pool) != 0) {
+                gi_pool_destroy(pool);
+                return GLINT_ERROR_THREAD;
+            }
+            pool->worker_count++;
+        }
+    }
+    *result = pool;
+    return GLINT_OK;
+}
+
+void gi_pool_destroy(GiPool *pool) {
+    if (pool == NULL) return;
+    pthread_mutex_lock(&pool->mutex);
+    pool->quit = true;
+    pthread_cond_broadcast(&pool->wake);
+    pthread_mutex_unlock(&pool->mutex);
+    for (int i = 0; i < pool->worker_count - 1; i++) pthread_join(pool->threads[i], NULL);
+    gi_memory_free(pool->memory, pool->threads, pool->threads_size);
+    pthread_cond_destroy(&pool->done);
+    pthread_cond_destroy(&pool->wake);
+    pthread_mutex_destroy(&pool->mutex);
+    gi_memory_free(pool->memory, pool, sizeof *pool);
+}
+
+int gi_pool_worker_count(const GiPool *pool) { return pool->worker_count; }
+
+void gi_parallel_for(
+    GiPool *pool, size_t count, size_t min_range, GiParallelFn function, void *context) {
+    if (count == 0) return;
+    if (min_range == 0) min_range = 1;
+    size_t block = count / ((size_t)pool->worker_count * 4);
+    if (block < min_range) block = min_range;
+    if (pool->worker_count == 1 || block >= count) {
+        function(context, 0, count, 0);
+        return;
+    }
+    pthread_mutex_lock(&pool->mutex);
+    /* A worker that woke late for the last loop may still be looking at it; it finds nothing left
+     * there and leaves at once. */
+    while (pool->active > 0) pthread_cond_wait(&pool->done, &pool->mutex);
+    pool->loop.count = count;
+    pool->loop.block = block;
+    pool->loop.function = function;
+    pool->loop.context = context;
+    atomic_store_explicit(&pool->loop.next, 0, memory_order_relaxed);
+    pool->generation++;
+    pthread_cond_broadcast(&pool->wake);
+    pthread_mutex_unlock(&pool->mutex);
+    work(&pool->loop, 0);
+    pthread_mutex_lock(&pool->mutex);
+    while (pool->active > 0) pthread_cond_wait(&pool->done, &pool->mutex);
+    pthread_mutex_unlock(&pool->mutex);
+}

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: MIT
+ * Where a ray meets each shape. The formulas are written once over R, a number or a vector of
+ * numbers, and this file is included once for each: by hit.h with plain doubles, by the kernels
+ * with one ray in each lane. The operations and their order are the same, so are the bits.
+ *
+ * The includer defines
+ *     R                 the type of numbers, with + - * / and unary -
+ *     M                 the type of truth values, with & and |
+ *     GI_HIT(name)      the names to give
+ *     R_OF(x)           a double in every lane
+ *     R_SQRT R_ABS      of a number
+ *     R_MIN R_MAX       a < b ? a : b and a > b ? a : b, the second when one is not a number
+ *     R_LESS R_LESS_EQUAL R_EQUAL    comparisons, false when one is not a number
+ *     R_SELECT(m,a,b)   m ? a : b
+ *     M_OF(x) M_NOT(m)  a bool in every lane; negation
+ *
+ * Every function returns whether the open interval (t_min, t_max) holds a meeting and leaves the
+ * smallest one in *t; *t is undefined otherwise. The direction may have any length but zero, t
+ * counts in that length. All solids are the intersection of what they are bounded by: the part of
+ * the ray's line inside is one interval, so no ray slips through an edge between two faces. */
+
+/* A ray with what the tests want to have ready. */
+typedef struct GI_HIT(Ray) {
+    R ox, oy, oz, dx, dy, dz;
+    R ix, iy, iz; /* 1 / d; of a component that is zero, a huge number of the sign of plus */
+    R inverse_square; /* 1 / d.d */
+} GI_HIT(Ray);
+
+static inline R GI_HIT(inverse)(R d) {
+    /* A ray parallel to a slab gets a step so large that it is inside from minus to plus
+     * "infinity" or nowhere; one that runs in the plane of a face is inside of exactly one of the
+     * two slabs that share the face. */
+    return R_SELECT(R_EQUAL(d, R_OF(0)), R_OF(1e300), R_OF(1) / d);
+}
+
+static inline GI_HIT(Ray) GI_HIT(ray)(R ox, R oy, R oz, R dx, R dy, R dz) {
+    return (GI_HIT(Ray)){ox, oy, oz, dx, dy, dz, GI_HIT(inverse)(dx), GI_HIT(inverse)(dy),
+        GI_HIT(inverse)(dz), R_OF(1) / (dx * dx + dy * dy + dz * dz)};
+}
+
+/* The same ray in the space of a placed shape. */
+static inline GI_HIT(Ray) GI_HIT(to_object)(const GI_HIT(Ray) * ray, const GiAffine *a) {
+#define ROW(i, x, y, z) (R_OF(a->m[i][0]) * x + R_OF(a->m[i][1]) * y + R_OF(a->m[i][2]) * z)
+    return GI_HIT(ray)(ROW(0, ray->ox, ray->oy, ray->oz) + R_OF(a->m[0][3]),
+        ROW(1, ray->ox, ray->oy, ray->oz) + R_OF(a->m[1][3]),
+        ROW(2, ray->ox, ray->oy, ray->oz) + R_OF(a->m[2][3]), ROW(0, ray->dx, ray->dy, ray->dz),
+        ROW(1, ray->dx, ray->dy, ray->dz), ROW(2, ray->dx, ray->dy, ray->dz));
+#undef ROW
+}
+
+/* Of the interval [enter, leave] inside a convex solid, the end that the ray meets: where it comes
+ * in, or where it goes out when it starts inside and `exits` allows. */
+static inline M GI_HIT(pick)(R enter, R leave, M exits, R t_min, R t_max, R *t) {
+    M from_outside = R_LESS(t_min, enter);
+    *t = R_SELECT(from_outside, enter, leave);
+    return R_LESS_EQUAL(enter, leave) & (from_outside | exits) & R_LESS(t_min, *t) &
+           R_LESS(*t, t_max);
+}
+
+/* By the point of closest approach: b^2 - 4ac would lose a small sphere far away to rounding. */
+static inline M GI_HIT(sphere)(
+    const GiSphere *s, const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
+    R x = R_OF(s->center.x) - ray->ox, y = R_OF(s->center.y) - ray->oy,
+      z = R_OF(s->center.z) - ray->oz;
+    R nearest = (x * ray->dx + y * ray->dy + z * ray->dz) * ray->inverse_square;
+    x = x - nearest * ray->dx;
+    y = y - nearest * ray->dy;
+    z = z - nearest * ray->dz;
+    R radius = R_OF(s->radius);
+    R inside = radius * radius - (x * x + y * y + z * z);
+    R half = R_SQRT(R_MAX(inside, R_OF(0)) * ray->inverse_square);
+    M any = R_LESS_EQUAL(R_OF(0), inside);
+    return any & GI_HIT(pick)(nearest - half, nearest + half, any, t_min, t_max, t);
+}
+
+static inline void GI_HIT(slab)(R low, R high, R o, R inverse, R *enter, R *leave) {
+    R a = (low - o) * inverse, b = (high - o) * inverse;
+    *enter = R_MIN(a, b);
+    *leave = R_MAX(a, b);
+}
+
+static inline M GI_HIT(box)(
+    const GiBox *box, const GI_HIT(Ray) * ray, bool entering_only, R t_min, R t_max, R *t) {
+    R x0, x1, y0, y1, z0, z1;
+    GI_HIT(slab)(R_OF(box->low.x), R_OF(box->high.x), ray->ox, ray->ix, &x0, &x1);
+    GI_HIT(slab)(R_OF(box->low.y), R_OF(box->high.y), ray->oy, ray->iy, &y0, &y1);
+    GI_HIT(slab)(R_OF(box->low.z), R_OF(box->high.z), ray->oz, ray->iz, &z0, &z1);
+    R enter = R_MAX(x0, R_MAX(y0, z0)), leave = R_MIN(x1, R_MIN(y1, z1));
+    return GI_HIT(pick)(enter, leave, M_OF(!entering_only), t_min, t_max, t);
+}
+
+/* The ray against the infinite double cone: the ray's origin is first moved to its point of closest
+ * approach to the centre, which keeps the numbers as small as the shape is. */
+typedef struct GI_HIT(Wall) {
+    R shift;    /* t of the moved origin */
+    R oz;       /* its height above the centre plane */
+    R near, far; /* roots, ascending, counted from the moved origin */
+    M outside;  /* the line is inside where t <= near or far <= t, not between the two */
+    M none;     /* nothing of the line is inside */
+} GI_HIT(Wall);
+
+static inline GI_HIT(Wall) GI_HIT(wall)(const GiCone *cone, const GI_HIT(Ray) * ray) {
+    GI_HIT(Wall) wall;
+    R x = ray->ox - R_OF(cone->center.x), y = ray->oy - R_OF(cone->center.y),
+      z = ray->oz - R_OF(cone->center.z);
+    wall.shift = -(x * ray->dx + y * ray->dy + z * ray->dz) * ray->inverse_square;
+    x = x + wall.shift * ray->dx;
+    y = y + wall.shift * ray->dy;
+    z = z + wall.shift * ray->dz;
+    wall.oz = z;
+    /* q(t) = (x + t dx)^2 + (y + t dy)^2 - (rho + t drho)^2 = a t^2 + 2 b t + c, negative inside */
+    R rho = R_OF(cone->radius) + R_OF(cone->slope) * z, drho = R_OF(cone->slope) * ray->dz;
+    R a = ray->dx * ray->dx + ray->dy * ray->dy - drho * drho;
+    R b = x * ray->dx + y * ray->dy - rho * drho;
+    R c = x * x + y * y - rho * rho;
+    R discriminant = b * b - a * c;
+    wall.outside = R_LESS(a, R_OF(0));
+    wall.none = R_LESS(discriminant, R_OF(0)) & R_LESS_EQUAL(R_OF(0), a);
+    R root = R_SQRT(R_MAX(discriminant, R_OF(0)));
+    R sum = -(b + R_SELECT(R_LESS(b, R_OF(0)), -root, root));
+    /* a = 0 makes one root infinite, as it should be (a + 0 is never minus zero). a = b = 0 is a
+     * ray along a cylinder's axis or a cone's side: inside all the way or not at all. */
+    R t0 = sum / (a + R_OF(0)), t1 = c / sum;
+    M along = R_EQUAL(sum, R_OF(0));
+    M along_inside = R_LESS_EQUAL(c, R_OF(0)) & R_EQUAL(a, R_OF(0));
+    t0 = R_SELECT(along, R_SELECT(along_inside, R_OF(-1e300), R_OF(0)), t0);
+    t1 = R_SELECT(along, R_SELECT(along_inside, R_OF(1e300), R_OF(0)), t1);
+    wall.none = wall.none | (along & R_EQUAL(a, R_OF(0)) & R_LESS(R_OF(0), c));
+    wall.near = R_MIN(t0, t1);
+    wall.far = R_MAX(t0, t1);
+    return wall;
+}
+
+/* The part of one nappe between the heights low and high. */
+static inline M GI_HIT(frustum)(const GI_HIT(Wall) * wall, const GI_HIT(Ray) * ray, double low,
+    double high, bool cap_exits, R t_min, R t_max, R *t) {
+    R slab_enter, slab_leave;
+    GI_HIT(slab)(R_OF(low), R_OF(high), wall->oz, ray->iz, &slab_enter, &slab_leave);
+    /* Steeper than the cone, a line is inside before `near` in one nappe and after `far` in the
+     * other; the slab lies in one nappe and tells which. */
+    M first = wall->outside & R_LESS_EQUAL(slab_enter, wall->near);
+    M second = wall->outside & R_LESS(wall->near, slab_enter);
+    R wall_enter = R_SELECT(first, R_OF(-1e300), R_SELECT(second, wall->far, wall->near));
+    R wall_leave = R_SELECT(first, wall->near, R_SELECT(second, R_OF(1e300), wall->far));
+    R enter = R_MAX(slab_enter, wall_enter), leave = R_MIN(slab_leave, wall_leave);
+    M exits = M_OF(cap_exits) | R_LESS(wall_leave, slab_leave);
+    return M_NOT(wall->none) & GI_HIT(pick)(enter + wall->shift, leave + wall->shift, exits, t_min,
+                                   t_max, t);
+}
+
+static inline M GI_HIT(cone)(const GiCone *cone, const GI_HIT(Ray) * ray, bool entering_only,
+    R t_min, R t_max, R *t) {
+    GI_HIT(Wall) wall = GI_HIT(wall)(cone, ray);
+    bool cap_exits = !(entering_only && cone->slope == 0);
+    double half = cone->half_height, apex = gi_cone_apex(cone);
+    if (!(fabs(apex) < half)) {
+        return GI_HIT(frustum)(&wall, ray, -half, half, cap_exits, t_min, t_max, t);
+    }
+    R other;
+    M below = GI_HIT(frustum)(&wall, ray, -half, apex, cap_exits, t_min, t_max, t);
+    M above = GI_HIT(frustum)(&wall, ray, apex, half, cap_exits, t_min, t_max, &other);
+    M nearer = above & (M_NOT(below) | R_LESS(other, *t));
+    *t = R_SELECT(nearer, other, *t);
+    return below | above;
+}
+
+static inline M GI_HIT(flat)(
+    const GiVec *point, const GiVec *normal, const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
+    R nx = R_OF(normal->x), ny = R_OF(normal->y), nz = R_OF(normal->z);
+    R height = (R_OF(point->x) - ray->ox) * nx + (R_OF(point->y) - ray->oy) * ny +
+               (R_OF(point->z) - ray->oz) * nz;
+    /* A ray within the plane divides by zero; what comes out is no number between the limits. */
+    *t = height / (ray->dx * nx + ray->dy * ny + ray->dz * nz);
+    return R_LESS(t_min, *t) & R_LESS(*t, t_max);
+}
+
+static inline M GI_HIT(disc)(
+    const GiDisc *disc, const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
+    M hit = GI_HIT(flat)(&disc->center, &disc->normal, ray, t_min, t_max, t);
+    R x = ray->ox - R_OF(disc->center.x) + *t * ray->dx,
+      y = ray->oy - R_OF(disc->center.y) + *t * ray->dy,
+      z = ray->oz - R_OF(disc->center.z) + *t * ray->dz;
+    R radius = R_OF(disc->radius);
+    return hit & R_LESS_EQUAL(x * x + y * y + z * z, radius * radius);
+}
+
+static inline M GI_HIT(unplaced)(const GiShapes *shapes, GiShapeRef ref, const GI_HIT(Ray) * ray,
+    R t_min, R t_max, R *t) {
+    uint32_t i = gi_shape_index(ref);
+    switch (gi_shape_kind(ref)) {
+    case GI_SHAPE_SPHERE: return GI_HIT(sphere)(&shapes->spheres[i], ray, t_min, t_max, t);
+    case GI_SHAPE_BOX:
+        return GI_HIT(box)(&shapes->boxes[i], ray, shapes->entering_only, t_min, t_max, t);
+    case GI_SHAPE_CONE:
+        return GI_HIT(cone)(&shapes->cones[i], ray, shapes->entering_only, t_min, t_max, t);
+    case GI_SHAPE_DISC: return GI_HIT(disc)(&shapes->discs[i], ray, t_min, t_max, t);
+    default: {
+        const GiPlane *plane = &shapes->planes[i];
+        return GI_HIT(flat)(&plane->point, &plane->normal, ray, t_min, t_max, t);
+    }
+    }
+}
+
+/* Any shape. */
+static inline M GI_HIT(shape)(const GiShapes *shapes, GiShapeRef ref, const GI_HIT(Ray) * ray,
+    R t_min, R t_max, R *t) {
+    if (gi_shape_kind(ref) != GI_SHAPE_PLACED) {
+        return GI_HIT(unplaced)(shapes, ref, ray, t_min, t_max, t);
+    }
+    const GiPlacement *placement = &shapes->placements[gi_shape_index(ref)];
+    GI_HIT(Ray) inner = GI_HIT(to_object)(ray, &shapes->transforms[placement->transform].to_object);
+    return GI_HIT(unplaced)(shapes, placement->shape, &inner, t_min, t_max, t);
+}

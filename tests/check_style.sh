@@ -1,0 +1,44 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# The rules of the house that a program can check (CONTRIBUTING.md has all of them).
+#   check_style.sh [SOURCE]
+# Ends with "N passed, N failed".
+set -u
+cd "${1:-$(dirname "$0")/..}" || exit 3
+passed=0
+failed=0
+
+rule() { # rule NAME FINDINGS: holds when there are none
+    if [ -z "$2" ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAIL style: $1"
+        printf '%s\n' "$2" | head -n 10 | sed 's/^/  /'
+    fi
+}
+
+c_files=$(find include src cli tests fuzz bench samples -name '*.[ch]' 2>/dev/null | sort)
+scripts="dev .ci/run $(find tests -name '*.sh' | sort)"
+
+# shellcheck disable=SC2046,SC2086 # the lists are lists, and no file of ours has a blank in its name
+{
+    rule "the first line names the licence" "$(for file in $c_files; do
+        head -n 1 "$file" | grep -q 'SPDX-License-Identifier: MIT' || echo "$file"
+    done
+    for file in $scripts; do
+        head -n 2 "$file" | grep -q 'SPDX-License-Identifier: MIT' || echo "$file"
+    done)"
+    rule "no line over 100 columns" "$(awk 'length > 100 { print FILENAME ":" FNR }' $c_files $scripts)"
+    rule "no promises (TO""DO, FIX""ME)" "$(grep -nE 'TO''DO|FIX''ME' $c_files $scripts)"
+    rule "no type ends in _t" "$(grep -nE '^(typedef .*|\} *)[A-Za-z0-9_]+_t;' $c_files)"
+    rule "no file over 1000 lines" "$(for file in $c_files; do
+        [ "$(wc -l <"$file")" -le 1000 ] || echo "$file"
+    done)"
+    rule "memory comes from src/base" "$(grep -nE '\b(malloc|calloc|realloc|free)\(' \
+        $(find src -name '*.[ch]' ! -path 'src/base/*'))"
+    rule "the library never prints, exits or reads the environment" "$(grep -nE \
+        '\b(printf|fprintf|puts|perror|exit|abort|getenv)\(' $(find src -name '*.[ch]'))"
+}
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]

@@ -1,0 +1,392 @@
+/* SPDX-License-Identifier: MIT
+ * Every kernel against brute force over shape/hit.h: the same shape and the same bits of t, on
+ * random and on nasty rays, in scenes of all kinds and scales. */
+#include "test.h"
+
+#include "random.h"
+#include "render/world.h"
+#include "shape/hit.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* ---------------------------------------------------------------- scenes */
+
+typedef struct Fixture {
+    GiMemory memory;
+    GiScene scene;
+    GiWorld world;
+    GiPool *pool;
+    GiShapeRef *refs; /* a copy of what was placed, for brute force */
+    size_t count;
+} Fixture;
+
+/* A scene of `count` shapes in a cube of the given size at `at`; sizes spread over `range`. */
+static void add_shapes(
+    GiScene *scene, Random *random, int count, GiVec at, double size, double range, uint32_t group) {
+    for (int i = 0; i < count; i++) {
+        GiVec center = gi_add(at, random_vec(random, -size, size));
+        double radius = size * 0.2 * gi_hit_maximum(pow(random_real(random, 0, 1), 8), 1 / range);
+        double height = radius * random_real(random, 0.2, 4);
+        GiShapeRef ref;
+        bool done;
+        switch (random_below(random, 8)) {
+        case 0:
+        case 1: done = gi_scene_add_sphere(scene, center, radius, 0, &ref); break;
+        case 2: {
+            GiVec b = gi_add(center, random_vec(random, -2 * radius, 2 * radius));
+            done = gi_scene_add_box(scene, center, b, 0, &ref);
+            break;
+        }
+        case 3: done = gi_scene_add_cylinder(scene, center, radius, height, 0, &ref); break;
+        case 4:
+        case 5: {
+            double tip = center.z + height * random_real(random, -1.5, 1.5);
+            if (tip == center.z) tip += height;
+            done = gi_scene_add_cone(scene, center, radius, height, tip, 0, &ref);
+            break;
+        }
+        case 6: {
+            GiVec normal = random_vec(random, -1, 1);
+            if (random_below(random, 2)) normal = gi_vec(0, 0, 1);
+            done = gi_scene_add_disc(scene, center, normal, radius, 0, &ref);
+            break;
+        }
+        default: /* exactly on another place in the grid: shared faces and coincident shapes */
+            center = gi_vec(floor(center.x), floor(center.y), floor(center.z));
+            done = gi_scene_add_box(scene, center, gi_add(center, gi_vec(1, 1, 1)), 0, &ref);
+        }
+        CHECK(done && gi_scene_place(scene, group, ref));
+    }
+}
+
+static void fixture_commit(Fixture *fixture, const GiKernel *kernel) {
+    GiScene *scene = &fixture->scene;
+    scene->has_camera = scene->has_image = true;
+    scene->width = scene->height = 16;
+    GlintError error;
+    CHECK_INT(gi_pool_create(&fixture->memory, 2, &fixture->pool), GLINT_OK);
+    CHECK_INT(gi_world_commit(&fixture->world, scene, kernel, fixture->pool, NULL, &error), GLINT_OK);
+    /* The order of brute force does not matter: ties go by document order. */
+    const GiTree *tree = &fixture->world.store.tree;
+    size_t capacity = fixture->world.primitive_count + 8;
+    fixture->refs = gi_memory_allocate(&fixture->memory, capacity * sizeof *fixture->refs);
+    fixture->count = 0;
+    for (uint32_t i = 0; i < tree->unbounded_count; i++) {
+        fixture->refs[fixture->count++] = tree->unbounded[i];
+    }
+    for (uint32_t i = 0; i < tree->sphere_block_count; i++) {
+        for (int lane = 0; lane < 8; lane++) {
+            GiShapeRef ref = tree->sphere_blocks[i].shape[lane];
+            if (ref.bits != GI_SHAPE_NONE) fixture->refs[fixture->count++] = ref;
+        }
+    }
+    for (uint32_t i = 0; i < tree->box_block_count; i++) {
+        for (int lane = 0; lane < 8; lane++) {
+            GiShapeRef ref = tree->box_blocks[i].shape[lane];
+            if (ref.bits != GI_SHAPE_NONE) fixture->refs[fixture->count++] = ref;
+        }
+    }
+    CHECK_INT(fixture->count, fixture->world.primitive_count);
+}
+
+static void fixture_begin(Fixture *fixture, GlintDialect dialect) {
+    memset(fixture, 0, sizeof *fixture);
+    gi_memory_init(&fixture->memory, NULL, 0);
+    CHECK(gi_scene_init(&fixture->scene, &fixture->memory));
+    fixture->scene.dialect = dialect;
+}
+
+static void fixture_end(Fixture *fixture) {
+    size_t capacity = fixture->world.primitive_count + 8;
+    gi_memory_free(&fixture->memory, fixture->refs, capacity * sizeof *fixture->refs);
+    gi_world_reset(&fixture->world, &fixture->memory);
+    gi_pool_destroy(fixture->pool);
+    gi_scene_reset(&fixture->scene);
+    CHECK_INT(atomic_load(&fixture->memory.used), 0);
+}
+
+static bool brute_force(const Fixture *fixture, const GiTraceRay *r, GiTraceHit *hit) {
+    const GiShapes *shapes = &fixture->world.shapes;
+    gi_hit_Ray ray = gi_hit_ray(r->origin.x, r->origin.y, r->origin.z, r->direction.x,
+        r->direction.y, r->direction.z);
+    *hit = (GiTraceHit){INFINITY, {GI_SHAPE_NONE}};
+    for (size_t i = 0; i < fixture->count; i++) {
+        double t;
+        GiShapeRef ref = fixture->refs[i];
+        if (ref.bits == r->skip || !gi_hit_shape(shapes, ref, &ray, r->t_min, r->t_max, &t)) continue;
+        if (t < hit->t || (t == hit->t && gi_shape_before(shapes, ref, hit->shape))) {
+            *hit = (GiTraceHit){t, ref};
+        }
+    }
+    return hit->shape.bits != GI_SHAPE_NONE;
+}
+
+/* ---------------------------------------------------------------- rays */
+
+static GiTraceRay random_ray(const Fixture *fixture, Random *random, GiVec at, double size) {
+    GiTraceRay ray = {.t_min = 0, .t_max = INFINITY, .skip = GI_SHAPE_NONE};
+    ray.origin = gi_add(at, random_vec(random, -2 * size, 2 * size));
+    ray.direction = random_vec(random, -1, 1);
+    switch (random_below(random, 10)) {
+    case 0: /* along an axis, from a grid point */
+        ray.origin = gi_vec(floor(ray.origin.x), floor(ray.origin.y), floor(ray.origin.z));
+        ray.direction = gi_vec(0, 0, random_below(random, 2) ? 1 : -1);
+        break;
+    case 1: /* in a coordinate plane */
+        ray.direction.y = 0;
+        break;
+    case 2: /* almost along an axis */
+        ray.direction = gi_vec(1e-20, 1, -1e-9);
+        break;
+    case 3: { /* starts on a surface, or inside of it */
+        GiTraceHit hit;
+        if (brute_force(fixture, &ray, &hit)) {
+            ray.origin = gi_along(ray.origin, ray.direction, hit.t);
+            ray.direction = random_vec(random, -1, 1);
+        }
+        break;
+    }
+    case 4: /* from far away */
+        ray.origin = gi_add(at, gi_scale(ray.direction, -1e4 * size));
+        ray.direction = gi_sub(gi_add(at, random_vec(random, -size, size)), ray.origin);
+        break;
+    case 5: /* a segment of odd length */
+        ray.direction = gi_scale(ray.direction, size * 3);
+        ray.t_max = 1;
+        ray.t_min = 1e-6;
+        break;
+    default: /* toward the scene */
+        ray.direction = gi_sub(gi_add(at, random_vec(random, -size, size)), ray.origin);
+    }
+    if (gi_vec_is_zero(ray.direction)) ray.direction.x = 1;
+    return ray;
+}
+
+static int wrong; /* of the current comparison, to keep the report short */
+
+static void compare_single(
+    const Fixture *fixture, const GiKernel *kernel, const GiTraceRay *ray, const char *what) {
+    GiTraceHit expected, found = {0};
+    bool hits = brute_force(fixture, ray, &expected);
+    bool found_any = kernel->closest(&fixture->world.trace, ray, &found);
+    if (found_any != hits ||
+        (hits && (memcmp(&found.t, &expected.t, sizeof found.t) != 0 ||
+                     found.shape.bits != expected.shape.bits))) {
+        if (wrong++ < 3) {
+            test_fail(__FILE__, __LINE__,
+                "%s, %s: ray (%g %g %g) + t (%g %g %g): shape %x at %.17g, not %x at %.17g", what,
+                kernel->name, ray->origin.x, ray->origin.y, ray->origin.z, ray->direction.x,
+                ray->direction.y, ray->direction.z, found_any ? found.shape.bits : 0,
+                found_any ? found.t : 0, hits ? expected.shape.bits : 0, hits ? expected.t : 0);
+        }
+    }
+    if (kernel->any(&fixture->world.trace, ray) != hits && wrong++ < 3) {
+        test_fail(__FILE__, __LINE__, "%s, %s: any differs from closest", what, kernel->name);
+    }
+}
+
+/* Rays from one point, or toward it when `any`, through a bundle and one by one. */
+static void compare_bundle(const Fixture *fixture, const GiKernel *kernel, Random *random, GiVec at,
+    double size, bool any, const char *what) {
+    static GiBundle bundle;
+    bundle.count = 1 + random_below(random, GI_BUNDLE_SIZE);
+    bundle.apex = gi_add(at, random_vec(random, -2 * size, 2 * size));
+    if (random_below(random, 4) == 0) bundle.apex = gi_add(at, gi_vec(0, 0, 50 * size));
+    bundle.side = gi_vec(0, 0, 0);
+    GiVec middle = gi_add(at, random_vec(random, -size, size));
+    double spread = size * pow(10, random_real(random, -4, 0.3));
+    for (int i = 0; i < bundle.count; i++) {
+        GiVec target = gi_add(middle, random_vec(random, -spread, spread));
+        GiVec d = gi_sub(target, bundle.apex), o = bundle.apex;
+        if (any) {
+            o = target;
+            d = gi_sub(bundle.apex, target);
+        }
+        bundle.ox[i] = o.x, bundle.oy[i] = o.y, bundle.oz[i] = o.z;
+        bundle.dx[i] = d.x, bundle.dy[i] = d.y, bundle.dz[i] = d.z;
+        bundle.t_min[i] = any ? 1e-9 : 0;
+        bundle.t_max[i] = any ? 1 : INFINITY;
+        bundle.skip[i] = any && i % 7 == 0 ? fixture->refs[i % fixture->count].bits : GI_SHAPE_NONE;
+    }
+    if (any) {
+        kernel->bundle_any(&fixture->world.trace, &bundle);
+    } else {
+        kernel->bundle_closest(&fixture->world.trace, &bundle);
+    }
+    for (int i = 0; i < bundle.count; i++) {
+        GiTraceRay ray = {{bundle.ox[i], bundle.oy[i], bundle.oz[i]},
+            {bundle.dx[i], bundle.dy[i], bundle.dz[i]}, bundle.t_min[i], bundle.t_max[i],
+            bundle.skip[i]};
+        GiTraceHit expected;
+        bool hits = brute_force(fixture, &ray, &expected);
+        bool found = bundle.shape[i] != GI_SHAPE_NONE;
+        bool same = found == hits;
+        if (same && hits && !any) {
+            same = memcmp(&bundle.t[i], &expected.t, sizeof expected.t) == 0 &&
+                   bundle.shape[i] == expected.shape.bits;
+        }
+        if (!same && wrong++ < 3) {
+            test_fail(__FILE__, __LINE__, "%s, %s, bundle %s: ray %d of %d: shape %x, not %x", what,
+                kernel->name, any ? "any" : "closest", i, bundle.count, bundle.shape[i],
+                expected.shape.bits);
+        }
+    }
+}
+
+static void compare_all(const Fixture *fixture, GiVec at, double size, int rays, const char *what) {
+    wrong = 0;
+    const GiKernel *kernel;
+    for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
+        Random random = {99};
+        for (int i = 0; i < rays; i++) {
+            GiTraceRay ray = random_ray(fixture, &random, at, size);
+            compare_single(fixture, kernel, &ray, what);
+        }
+        for (int i = 0; i < rays / 64; i++) {
+            compare_bundle(fixture, kernel, &random, at, size, false, what);
+            compare_bundle(fixture, kernel, &random, at, size, true, what);
+        }
+    }
+}
+
+static void run_scene(int count, GiVec at, double size, double range, GlintDialect dialect,
+    int rays, const char *what) {
+    Fixture fixture;
+    fixture_begin(&fixture, dialect);
+    Random random = {(uint64_t)count + 17};
+    add_shapes(&fixture.scene, &random, count, at, size, range, GI_SHAPE_NONE);
+    fixture_commit(&fixture, gi_kernel_at(0));
+    compare_all(&fixture, at, size, rays, what);
+    fixture_end(&fixture);
+}
+
+/* ---------------------------------------------------------------- tests */
+
+static const GiVec origin = {0, 0, 0};
+
+static void few_shapes(void) {
+    for (int count = 1; count <= 20; count++) {
+        run_scene(count, origin, 4, 10, GLINT_DIALECT_GLINT, 400, "few shapes");
+    }
+}
+
+static void many_shapes(void) {
+    run_scene(3000, origin, 10, 100, GLINT_DIALECT_GLINT, 1500, "many shapes");
+}
+
+static void interior_rule(void) {
+    run_scene(200, origin, 6, 10, GLINT_DIALECT_2012, 1500, "interior rule");
+}
+
+static void large_range(void) {
+    run_scene(1000, origin, 1e5, 1e6, GLINT_DIALECT_GLINT, 1500, "range of sizes 10^5 to 1");
+}
+
+static void far_away(void) {
+    run_scene(500, gi_vec(1e6, -2e6, 3e6), 3, 30, GLINT_DIALECT_GLINT, 1500, "far from the origin");
+}
+
+static void extreme_scales(void) {
+    run_scene(100, origin, 1e-30, 10, GLINT_DIALECT_GLINT, 500, "tiny scene");
+    run_scene(100, origin, 1e30, 10, GLINT_DIALECT_GLINT, 500, "huge scene");
+}
+
+static void one_outlier(void) {
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+    Random random = {5};
+    add_shapes(&fixture.scene, &random, 500, origin, 5, 10, GI_SHAPE_NONE);
+    GiShapeRef ref;
+    CHECK(gi_scene_add_sphere(&fixture.scene, gi_vec(0, -1e9, 0), 1e9 - 6, 0, &ref));
+    CHECK(gi_scene_place(&fixture.scene, GI_SHAPE_NONE, ref));
+    CHECK(gi_scene_add_plane(&fixture.scene, gi_vec(0, 0, -5), gi_vec(0, 0.1, 1), 0, &ref));
+    CHECK(gi_scene_place(&fixture.scene, GI_SHAPE_NONE, ref));
+    fixture_commit(&fixture, gi_kernel_at(0));
+    compare_all(&fixture, origin, 5, 1000, "an outlier and a plane");
+    fixture_end(&fixture);
+}
+
+static void groups(void) {
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+    GiScene *scene = &fixture.scene;
+    Random random = {6};
+    uint32_t parent = GI_SHAPE_NONE;
+    for (int depth = 0; depth < 6; depth++) {
+        GiShapeRef group;
+        CHECK(gi_scene_add_group(scene, &group));
+        uint32_t index = gi_shape_index(group);
+        CHECK(gi_scene_add_step(scene, index, GI_STEP_TRANSLATE, random_vec(&random, -2, 2)));
+        CHECK(gi_scene_add_step(scene, index, GI_STEP_ROTATE, random_vec(&random, -180, 180)));
+        GiVec scale = gi_vec(random_real(&random, 0.5, 2), -1, random_real(&random, 0.1, 1.5));
+        CHECK(gi_scene_add_step(scene, index, GI_STEP_SCALE, scale));
+        add_shapes(scene, &random, 40, origin, 3, 10, index);
+        CHECK(gi_scene_place(scene, parent, group));
+        /* Shared: the same group once more, at the top. */
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, group));
+        parent = index;
+    }
+    fixture_commit(&fixture, gi_kernel_at(0));
+    compare_all(&fixture, origin, 4, 1000, "groups");
+    fixture_end(&fixture);
+}
+
+/* All in one point, all alike: no split helps, and ties everywhere. */
+static void coincident(void) {
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+    for (int i = 0; i < 300; i++) {
+        GiShapeRef ref;
+        CHECK(gi_scene_add_sphere(&fixture.scene, gi_vec(1, 2, 3), 1, 0, &ref));
+        CHECK(gi_scene_place(&fixture.scene, GI_SHAPE_NONE, ref));
+    }
+    fixture_commit(&fixture, gi_kernel_at(0));
+    compare_all(&fixture, gi_vec(1, 2, 3), 2, 300, "coincident");
+    fixture_end(&fixture);
+}
+
+/* Sizes and distances that halve each time give the deepest tree a builder can make. */
+static void deep_tree(void) {
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+    for (int i = 0; i < 900; i++) {
+        double x = ldexp(1, -i);
+        GiShapeRef ref;
+        CHECK(gi_scene_add_sphere(&fixture.scene, gi_vec(x, 0, 0), x / 4, 0, &ref));
+        CHECK(gi_scene_place(&fixture.scene, GI_SHAPE_NONE, ref));
+    }
+    fixture_commit(&fixture, gi_kernel_at(0));
+    compare_all(&fixture, origin, 1, 300, "deep tree");
+    fixture_end(&fixture);
+}
+
+static void empty_scene(void) {
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+    fixture_commit(&fixture, gi_kernel_at(0));
+    GiTraceRay ray = {.direction = {0, 0, 1}, .t_max = INFINITY, .skip = GI_SHAPE_NONE};
+    GiTraceHit hit;
+    CHECK(!gi_kernel_at(0)->closest(&fixture.world.trace, &ray, &hit));
+    static GiBundle bundle;
+    bundle.count = 100;
+    for (int i = 0; i < 100; i++) {
+        bundle.dx[i] = i * 0.001;
+        bundle.dz[i] = 1;
+        bundle.t_max[i] = INFINITY;
+        bundle.skip[i] = GI_SHAPE_NONE;
+    }
+    gi_kernel_at(0)->bundle_closest(&fixture.world.trace, &bundle);
+    for (int i = 0; i < 100; i++) CHECK(bundle.shape[i] == GI_SHAPE_NONE);
+    fixture_end(&fixture);
+}
+
+static void names(void) {
+    CHECK(gi_kernel_find(NULL) == gi_kernel_at(0));
+    CHECK(gi_kernel_find("portable") != NULL);
+    CHECK(gi_kernel_find("sse9") == NULL);
+}
+
+const GiTest tests_kernel[] = {TEST(names), TEST(empty_scene), TEST(few_shapes), TEST(many_shapes),
+    TEST(interior_rule), TEST(large_range), TEST(far_away), TEST(extreme_scales),
+    TEST(one_outlier), TEST(groups), TEST(coincident), TEST(deep_tree), TEST_END};
