@@ -4,6 +4,7 @@
  *   clang -fsanitize=fuzzer,address,undefined -Iinclude -Isrc fuzz/fuzz_reader.c ... -lexpat -lm */
 #include "reader/reader.h"
 
+#include <expat.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,9 +68,19 @@ static GlintStatus load(Input *input, size_t chunk_size, GiMemory *memory, GiSce
     return status;
 }
 
+/* In malformed text expat may or may not hand out the last piece before the place of the error,
+ * depending on the chunks; only the outcome is compared then. */
+static bool is_well_formed(const uint8_t *data, size_t size) {
+    XML_Parser parser = XML_ParserCreate(NULL);
+    bool good = XML_Parse(parser, (const char *)data, (int)size, 1) == XML_STATUS_OK;
+    XML_ParserFree(parser);
+    return good;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const size_t chunk_sizes[] = {0, 1, 7};
+    bool compare_all = true;
     GlintStatus first_status = GLINT_OK;
     uint32_t first_hash = 0, first_shapes = 0;
     for (int i = 0; i < 3; i++) {
@@ -86,6 +97,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
             first_shapes = shapes;
         }
         require(status == first_status, "the outcome depends on the chunk size");
+        if (i == 0 && !is_well_formed(data, size)) compare_all = false;
+        if (!compare_all) continue;
         require(shapes == first_shapes, "the shapes depend on the chunk size");
         require(input.hash == first_hash, "the findings depend on the chunk size");
     }

@@ -156,15 +156,10 @@ static bool split_range(Build *build, Range range, Range *left, Range *right) {
     memcpy(node->low, bounds.low, sizeof node->low);
     memcpy(node->high, bounds.high, sizeof node->high);
     size_t middle = 0;
-    if (count > 2 && range.depth < SAH_DEPTH_LIMIT) {
+    if (count > GI_BUILD_LEAF_SIZE && range.depth < SAH_DEPTH_LIMIT) {
         Binning binning = binning_of(&centers);
         Split split = find_split(items, count, &binning);
-        float area = gi_build_area(bounds.low, bounds.high);
-        /* A node costs about one block test of a few shapes. */
-        bool pays = split.axis >= 0 && split.cost + 2 * area < cost_of((uint32_t)count) * area;
-        if (split.axis >= 0 && (pays || count > GI_BUILD_LEAF_SIZE)) {
-            middle = partition(items, count, &binning, split);
-        }
+        if (split.axis >= 0) middle = partition(items, count, &binning, split);
     }
     if (middle == 0 && count > GI_BUILD_LEAF_SIZE) middle = count / 2; /* all centres are one */
     if (middle == 0) {

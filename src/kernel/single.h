@@ -99,13 +99,40 @@ typedef struct StackEntry {
 
 enum { STACK_LIMIT = GI_TREE_DEPTH_LIMIT * (GI_TREE_WIDTH - 1) + 1 };
 
+/* The bytes of a child are asked for when it is pushed, those of a shape when its box is met: both
+ * are far away in large scenes. */
+static inline void prefetch_child(const GiTree *tree, uint32_t child) {
+    uint32_t index = child & GI_CHILD_INDEX;
+    const char *from = (const char *)&tree->nodes[index];
+    size_t size = sizeof(GiNode);
+    if (child & GI_CHILD_BLOCK) {
+        bool spheres = child & GI_CHILD_SPHERES;
+        from = spheres ? (const char *)&tree->sphere_blocks[index]
+                       : (const char *)&tree->box_blocks[index];
+        size = spheres ? sizeof(GiSphereBlock) : sizeof(GiBoxBlock);
+    }
+    for (size_t i = 0; i < size; i += 64) prefetch(from + i);
+}
+
+static inline void prefetch_shape(const GiShapes *shapes, GiShapeRef ref) {
+    uint32_t i = gi_shape_index(ref);
+    switch (gi_shape_kind(ref)) {
+    case GI_SHAPE_SPHERE: prefetch(&shapes->spheres[i]); break;
+    case GI_SHAPE_BOX: prefetch(&shapes->boxes[i]); break;
+    case GI_SHAPE_CONE: prefetch(&shapes->cones[i]); break;
+    case GI_SHAPE_PLACED: prefetch(&shapes->placements[i]); break;
+    default: break;
+    }
+}
+
 /* Pushes the children in bits so that the nearest is on top. */
-static inline int push_children(
-    StackEntry *stack, int count, const uint32_t child[8], unsigned bits, const float enter[8]) {
+static inline int push_children(const GiTree *tree, StackEntry *stack, int count,
+    const uint32_t child[8], unsigned bits, const float enter[8]) {
     int first = count;
     for (; bits != 0; bits &= bits - 1) {
         int i = lowest_bit(bits);
         StackEntry entry = {child[i], enter[i]};
+        prefetch_child(tree, child[i]);
         int at = count++;
         for (; at > first && stack[at - 1].enter < entry.enter; at--) stack[at] = stack[at - 1];
         stack[at] = entry;
@@ -146,7 +173,7 @@ static inline bool line_trace(const GiTrace *trace, const GiTraceRay *r, bool an
         if (!(top.child & GI_CHILD_BLOCK)) {
             const GiNode *node = &tree->nodes[index];
             unsigned bits = line_boxes(&line, node->low, node->high, from, to, enter);
-            count = push_children(stack, count, node->child, bits, enter);
+            count = push_children(tree, stack, count, node->child, bits, enter);
             continue;
         }
         const GiShapeRef *shapes;

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #define GI_PASTE_(a, b) a##b
@@ -185,11 +186,13 @@ static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
 }
 #endif
 
-/* ---------------------------------------------------------------- bits */
+/* ---------------------------------------------------------------- bits, memory */
 
 #if defined(__GNUC__)
+static inline void prefetch(const void *p) { __builtin_prefetch(p); }
 static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
 #else
+static inline void prefetch(const void *p) { (void)p; }
 static inline int lowest_bit(unsigned bits) {
     int index = 0;
     while (!(bits >> index & 1)) index++;

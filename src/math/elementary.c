@@ -49,7 +49,22 @@ static double exp2_fraction(double x) {
     return sum;
 }
 
+/* base^n by squaring, for the exponents that highlights usually have. Each of at most 2 * 10
+ * products adds half a rounding times what is left of the exponent. */
+static double whole_power(double base, unsigned n) {
+    double power = n & 1 ? base : 1;
+    while (n >>= 1) {
+        base *= base;
+        if (n & 1) power *= base;
+    }
+    return power;
+}
+
 double gi_pow(double base, double exponent) {
+    if (exponent >= 0 && exponent <= 1024 && base >= 0) {
+        unsigned n = (unsigned)exponent;
+        if (n == exponent) return whole_power(base, n);
+    }
     if (exponent == 0) return 1;
     if (isnan(base) || isnan(exponent) || base < 0) return NAN;
     if (base == 0) return exponent > 0 ? 0 : INFINITY;

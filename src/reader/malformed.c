@@ -147,6 +147,34 @@ static void report_end(GiReader *reader, GiPlace place, const char *inside) {
         inside != NULL ? inside : "the file ends", open, gi_quote(tag, top, strlen(top)));
 }
 
+static bool begins_with(const GiWindow *window, int64_t offset, const char *text) {
+    int unit = gi_window_unit(window);
+    for (; *text != '\0'; text++, offset += unit) {
+        if (gi_window_at(window, offset) != (unsigned char)*text) return false;
+    }
+    return true;
+}
+
+/* The first thing after the scene that is neither blank, comment nor instruction. The parser would
+ * name one place or another, depending on how the file was cut into chunks. */
+static int64_t find_junk(const GiReader *reader, int64_t fallback) {
+    const GiWindow *window = &reader->window;
+    int unit = gi_window_unit(window);
+    int64_t p = reader->scene_end;
+    if (!gi_window_holds(window, p)) return fallback;
+    for (;;) {
+        while (is_blank(gi_window_at(window, p))) p += unit;
+        const char *end = begins_with(window, p, "<!--") ? "-->" : begins_with(window, p, "<?") ? "?>" : NULL;
+        if (end == NULL) return p;
+        int64_t begin = p;
+        while (!begins_with(window, p, end)) {
+            if (gi_window_at(window, p) == GI_WINDOW_END) return begin;
+            p += unit;
+        }
+        p += (int64_t)strlen(end) * unit;
+    }
+}
+
 void gi_malformed_report(GiReader *reader) {
     GiReport *report = &reader->report;
     enum XML_Error code = XML_GetErrorCode(reader->parser);
@@ -156,12 +184,20 @@ void gi_malformed_report(GiReader *reader) {
     if (offset > end) offset = end;
     GiPlace place = {.offset = offset};
     char quote[GI_QUOTE_SIZE];
+    if (reader->frames.count == 0 && reader->report.root.line != 0 && code != XML_ERROR_NO_MEMORY) {
+        place.offset = find_junk(reader, offset);
+        gi_report_add(report, place, 1, "nothing may follow the end of the scene");
+        return;
+    }
     switch (code) {
     case XML_ERROR_NO_MEMORY: gi_reader_out_of_memory(reader); break;
     case XML_ERROR_NO_ELEMENTS: report_end(reader, (GiPlace){.offset = end}, NULL); break;
-    case XML_ERROR_UNCLOSED_TOKEN:
-        report_end(reader, place, "this is not finished before the end of the file");
+    case XML_ERROR_UNCLOSED_TOKEN: {
+        bool comment = begins_with(&reader->window, offset, "<!--");
+        gi_report_add(report, place, 1, "this %s is not closed by `%s` before the end of the file",
+            comment ? "comment" : "tag", comment ? "-->" : ">");
         break;
+    }
     case XML_ERROR_PARTIAL_CHAR:
         report_end(reader, place, "the file ends in the middle of a character");
         break;
@@ -170,7 +206,7 @@ void gi_malformed_report(GiReader *reader) {
         break;
     case XML_ERROR_INVALID_TOKEN:
     case XML_ERROR_SYNTAX:
-        if (reader->frames.count == 0 && reader->report.root.line == 0 &&
+        if (reader->frames.count == 0 &&
             gi_window_at(&reader->window, offset) != '<' &&
             gi_window_at(&reader->window, offset) >= 0x20 &&
             gi_window_at(&reader->window, offset - gi_window_unit(&reader->window)) != '<' &&
@@ -187,9 +223,6 @@ void gi_malformed_report(GiReader *reader) {
         gi_report_add(report, place, length, "the attribute `%s` is given twice", quote);
         break;
     }
-    case XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
-        gi_report_add(report, place, 1, "nothing may follow the end of the scene");
-        break;
     case XML_ERROR_UNDEFINED_ENTITY: {
         int64_t name = offset + gi_window_unit(&reader->window);
         int length = name_length(&reader->window, name);

@@ -64,6 +64,7 @@ typedef struct GiReader {
     GiVec defaults[GI_SLOT_COUNT];
     unsigned evidence;
     GlintDialect dialect; /* the attribute of the scene */
+    int64_t scene_end;    /* offset behind `</scene>` */
     bool stopped;         /* no event counts any more */
     bool out_of_memory;
     bool camera_seen, image_seen; /* with or without errors */

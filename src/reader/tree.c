@@ -276,6 +276,7 @@ static void read_type(
         if (kind == GI_KIND_CAMERA) frame->type = gi_type_find("PerspectiveCamera", kind);
         if (kind == GI_KIND_LIGHT) frame->type = gi_type_find("Light", kind);
         if (frame->type != NULL) return;
+        if (frame->broken) return; /* by another attribute, which may have been meant for it */
         frame->broken = true;
         gi_type_list_text(kind, list, sizeof list);
         gi_report_add(&reader->report, frame->place,
@@ -460,6 +461,10 @@ void XMLCALL gi_tree_end(void *user, const XML_Char *tag) {
     }
     if (reader->report.out_of_memory) gi_reader_out_of_memory(reader);
     pop_frame(reader);
+    if (parent == NULL) {
+        reader->scene_end =
+            XML_GetCurrentByteIndex(reader->parser) + XML_GetCurrentByteCount(reader->parser);
+    }
 }
 
 /* Text where only elements belong. */

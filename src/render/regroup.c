@@ -1,95 +1,121 @@
 /* SPDX-License-Identifier: MIT
- * Sort-tile-recursive packing (Leutenegger 1997) in the plane across the mean direction: cut into
- * slabs of equal count along the longest extent, each slab across it, and the same again inside
- * each bundle for its packets. Counting sorts with a few hundred buckets are exact enough. */
+ * Rays become points in the plane across their mean direction, with axes along the cloud's own; each
+ * coordinate is replaced by its rank among 64, and the ranks' bits are interleaved (Morton order).
+ * Ranks, not lengths: behind a silhouette one far pixel would otherwise push all others into a
+ * few cells. One counting sort does the rest, so the whole costs a few nanoseconds a ray. */
 #include "render/regroup.h"
 
-#include "kernel/kernel.h"
+#include <stdbool.h>
 
-enum { BUCKET_COUNT = 256 };
+enum { BUCKETS = 256, RANKS = 64, CELLS = RANKS * RANKS, KEEP_ORDER = 16 };
 
-/* Sorts order[0 .. count) by key, about, and leaves it in the same place. */
-static void sort_by(const float *key, uint16_t *order, uint16_t *other, int count) {
-    float low = INFINITY, high = -INFINITY;
-    for (int i = 0; i < count; i++) {
-        float k = key[order[i]];
-        low = k < low ? k : low;
-        high = k > high ? k : high;
-    }
-    if (!(high > low)) return;
-    float scale = (BUCKET_COUNT - 0.01f) / (high - low);
-    if (!isfinite(scale)) return;
-    uint16_t start[BUCKET_COUNT + 1] = {0};
-    for (int i = 0; i < count; i++) start[(int)((key[order[i]] - low) * scale) + 1]++;
-    for (int i = 0; i < BUCKET_COUNT; i++) start[i + 1] = (uint16_t)(start[i + 1] + start[i]);
-    for (int i = 0; i < count; i++) {
-        other[start[(int)((key[order[i]] - low) * scale)]++] = order[i];
-    }
-    for (int i = 0; i < count; i++) order[i] = other[i];
+typedef struct Axes { float u[3], v[3], w[3]; } Axes;
+
+static void store(float to[3], GiVec v) {
+    to[0] = (float)v.x;
+    to[1] = (float)v.y;
+    to[2] = (float)v.z;
 }
 
-/* Packs order[0 .. count) into runs of `size`: slabs along one axis, runs along the other. */
-static void pack(GiRegroup *regroup, uint16_t *order, int count, int size, bool a_first) {
-    const float *first = a_first ? regroup->a : regroup->b;
-    const float *second = a_first ? regroup->b : regroup->a;
-    int runs = (count + size - 1) / size;
-    int slabs = (int)ceil(sqrt((double)runs));
-    int slab_size = (runs + slabs - 1) / slabs * size;
-    sort_by(first, order, regroup->sorted, count);
-    for (int begin = 0; begin < count; begin += slab_size) {
-        int length = count - begin < slab_size ? count - begin : slab_size;
-        sort_by(second, order + begin, regroup->sorted, length);
-    }
-}
-
-/* Coordinates in the plane across the mean direction, a along the axis of largest variance. */
-static void project(GiRegroup *regroup, int count) {
+/* A frame across the mean direction; u and v are arbitrary. */
+static Axes axes_of(const GiRegroup *regroup, int count) {
     GiVec sum = {0, 0, 0};
-    for (int i = 0; i < count; i++) sum = gi_add(sum, gi_normalize(regroup->direction[i]));
+    for (int i = 0; i < count; i += 1 + count / 64) {
+        sum = gi_add(sum, gi_normalize(gi_vec(regroup->x[i], regroup->y[i], regroup->z[i])));
+    }
     GiVec w = gi_normalize(sum);
     if (gi_vec_is_zero(w)) w = gi_vec(0, 0, 1);
     GiVec u = gi_normalize(gi_cross(w, fabs(w.x) < 0.6 ? gi_vec(1, 0, 0) : gi_vec(0, 1, 0)));
-    GiVec v = gi_cross(w, u);
-    double mean_a = 0, mean_b = 0;
+    Axes axes;
+    store(axes.w, w);
+    store(axes.u, u);
+    store(axes.v, gi_cross(w, u));
+    return axes;
+}
+
+static void project(GiRegroup *regroup, int count) {
+    const Axes axes = axes_of(regroup, count);
     for (int i = 0; i < count; i++) {
-        GiVec d = regroup->direction[i];
-        double depth = fmax(gi_dot(d, w), 1e-3 * gi_length(d));
-        double a = gi_dot(d, u) / depth, b = gi_dot(d, v) / depth;
-        regroup->a[i] = (float)a;
-        regroup->b[i] = (float)b;
+        float x = regroup->x[i], y = regroup->y[i], z = regroup->z[i];
+        float depth = axes.w[0] * x + axes.w[1] * y + axes.w[2] * z;
+        float least = 1e-3f * (fabsf(x) + fabsf(y) + fabsf(z)); /* rays across or backward */
+        float inverse = 1 / (depth > least ? depth : least);
+        regroup->a[i] = (axes.u[0] * x + axes.u[1] * y + axes.u[2] * z) * inverse;
+        regroup->b[i] = (axes.v[0] * x + axes.v[1] * y + axes.v[2] * z) * inverse;
+    }
+}
+
+/* Turns the coordinates so that a runs along the axis of largest variance. */
+static void align(GiRegroup *regroup, int count) {
+    double mean_a = 0, mean_b = 0, aa = 0, ab = 0, bb = 0;
+    int step = 1 + count / 256, samples = 0;
+    for (int i = 0; i < count; i += step, samples++) {
+        double a = regroup->a[i], b = regroup->b[i];
         mean_a += a;
         mean_b += b;
-    }
-    mean_a /= count;
-    mean_b /= count;
-    double aa = 0, ab = 0, bb = 0;
-    for (int i = 0; i < count; i++) {
-        double a = regroup->a[i] - mean_a, b = regroup->b[i] - mean_b;
         aa += a * a;
         ab += a * b;
         bb += b * b;
     }
-    /* The longer eigenvector of the covariance. */
+    aa -= mean_a * mean_a / samples;
+    ab -= mean_a * mean_b / samples;
+    bb -= mean_b * mean_b / samples;
     double half = (aa - bb) / 2, root = sqrt(half * half + ab * ab);
-    double x = half + root, y = ab;
-    if (!(x * x + y * y > 0)) x = 1, y = 0;
-    double length = sqrt(x * x + y * y);
-    x /= length;
-    y /= length;
+    double x = half + root, y = ab, length = sqrt(x * x + y * y);
+    if (!(length > 0)) return;
+    float c = (float)(x / length), s = (float)(y / length);
     for (int i = 0; i < count; i++) {
         float a = regroup->a[i], b = regroup->b[i];
-        regroup->a[i] = (float)(a * x + b * y);
-        regroup->b[i] = (float)(b * x - a * y);
+        regroup->a[i] = a * c + b * s;
+        regroup->b[i] = b * c - a * s;
     }
 }
 
-void gi_regroup(GiRegroup *regroup, int count) {
-    for (int i = 0; i < count; i++) regroup->order[i] = (uint16_t)i;
-    if (count <= GI_PACKET_SIZE) return;
-    project(regroup, count);
-    if (count > GI_BUNDLE_SIZE) pack(regroup, regroup->order, count, GI_BUNDLE_SIZE, true);
-    for (int begin = 0; begin < count; begin += GI_BUNDLE_SIZE) {
-        int length = count - begin < GI_BUNDLE_SIZE ? count - begin : GI_BUNDLE_SIZE;
-        pack(regroup, regroup->order + begin, length, GI_PACKET_SIZE, true);
+/* Spreads the bits of a rank: 0b101 becomes 0b10001. */
+static uint16_t spread(unsigned rank) {
+    unsigned bits = (rank | rank << 4) & 0x30f;
+    bits = (bits | bits << 2) & 0x333;
+    return (uint16_t)((bits | bits << 1) & 0x555);
+}
+
+/* Adds the spread rank of every value, shifted, to its key. */
+static void rank(GiRegroup *regroup, const float *value, int count, int shift) {
+    float low = INFINITY, high = -INFINITY;
+    for (int i = 0; i < count; i++) {
+        low = value[i] < low ? value[i] : low;
+        high = value[i] > high ? value[i] : high;
     }
+    float scale = (BUCKETS - 0.01f) / (high - low);
+    if (!(scale > 0 && scale < 1e30f)) return; /* all alike, or not numbers */
+    int counts[BUCKETS] = {0};
+    for (int i = 0; i < count; i++) counts[(int)((value[i] - low) * scale)]++;
+    uint16_t bits[BUCKETS];
+    for (int i = 0, below = 0; i < BUCKETS; i++) {
+        int middle = below + counts[i] / 2; /* of a bucket, which is not split */
+        bits[i] = (uint16_t)(spread((unsigned)(middle * RANKS / count)) << shift);
+        below += counts[i];
+    }
+    for (int i = 0; i < count; i++) {
+        regroup->key[i] = (uint16_t)(regroup->key[i] | bits[(int)((value[i] - low) * scale)]);
+    }
+}
+
+static void sort_by_key(GiRegroup *regroup, int count) {
+    uint16_t start[CELLS + 1] = {0};
+    for (int i = 0; i < count; i++) start[regroup->key[i] + 1]++;
+    for (int i = 0; i < CELLS; i++) start[i + 1] = (uint16_t)(start[i + 1] + start[i]);
+    for (int i = 0; i < count; i++) regroup->order[start[regroup->key[i]]++] = (uint16_t)i;
+}
+
+void gi_regroup(GiRegroup *regroup, int count) {
+    if (count <= KEEP_ORDER) {
+        for (int i = 0; i < count; i++) regroup->order[i] = (uint16_t)i;
+        return;
+    }
+    project(regroup, count);
+    align(regroup, count);
+    for (int i = 0; i < count; i++) regroup->key[i] = 0;
+    rank(regroup, regroup->a, count, 1);
+    rank(regroup, regroup->b, count, 0);
+    sort_by_key(regroup, count);
 }

@@ -10,11 +10,12 @@
 enum { GI_REGROUP_LIMIT = 4096 };
 
 typedef struct GiRegroup {
-    GiVec direction[GI_REGROUP_LIMIT]; /* in: of each ray, any length */
-    uint16_t order[GI_REGROUP_LIMIT];  /* out: a permutation */
+    float x[GI_REGROUP_LIMIT], y[GI_REGROUP_LIMIT], z[GI_REGROUP_LIMIT]; /* in: directions */
+    uint16_t order[GI_REGROUP_LIMIT];                                    /* out: a permutation */
     /* private */
     float a[GI_REGROUP_LIMIT], b[GI_REGROUP_LIMIT];
-    uint16_t sorted[GI_REGROUP_LIMIT];
+    uint16_t key[GI_REGROUP_LIMIT];
 } GiRegroup;
 
+/* count is at most GI_REGROUP_LIMIT. Directions may have any length. */
 void gi_regroup(GiRegroup *regroup, int count);

@@ -131,7 +131,9 @@ static void trace_pending(const GiWorld *world, const GiLight *light, int count,
     const GiRules *rules = world->rules;
     for (int i = 0; i < count; i++) {
         const Hit *hit = &scratch->hits[scratch->pending[i].hit];
-        scratch->regroup.direction[i] = gi_sub(light->position, hit->point);
+        scratch->regroup.x[i] = (float)(light->position.x - hit->point.x);
+        scratch->regroup.y[i] = (float)(light->position.y - hit->point.y);
+        scratch->regroup.z[i] = (float)(light->position.z - hit->point.z);
     }
     gi_regroup(&scratch->regroup, count);
     for (int begin = 0; begin < count && !stopped(control); begin += GI_BUNDLE_SIZE) {
@@ -142,7 +144,7 @@ static void trace_pending(const GiWorld *world, const GiLight *light, int count,
         for (int i = 0; i < bundle->count; i++) {
             int at = scratch->regroup.order[begin + i];
             const Hit *hit = &scratch->hits[scratch->pending[at].hit];
-            GiVec d = scratch->regroup.direction[at];
+            GiVec d = gi_sub(light->position, hit->point);
             bundle->ox[i] = hit->point.x, bundle->oy[i] = hit->point.y, bundle->oz[i] = hit->point.z;
             bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
             double away = rules->shadow_distance > 0 ? rules->shadow_distance : hit->error;
