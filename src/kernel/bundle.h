@@ -4,8 +4,8 @@
  * In the plane at depth 1 along the bundle's axis w every ray is a point (a, b), sixteen of them (a
  * packet) a rectangle, and all of them a larger rectangle: a frustum of four planes, against which
  * nodes are tested once for all rays. A shape is a rectangle too, with a nearest depth; five
- * comparisons for all packets at once tell which packets it may concern, and only those rays are
- * tested exactly. (After Reshetov 2005, Overbeck 2008 and Davidovic 2012.)
+ * comparisons for all packets at once tell which packets it may concern, five more which rays of a
+ * packet, and only those are tested exactly. (After Reshetov 2005, Overbeck 2008 and Davidovic 2012.)
  *
  *        b |   +---------------- tile
  *          |   | +--+ packet
@@ -16,8 +16,12 @@
  * centre of kernel space; here they are moved so that the apex is the origin, and grown by another
  * 2^-19 of the apex' own distance. Together that is at least 32 roundings of their distance p from
  * the apex. Plane distances and rectangles are sums and quotients of a dozen roundings of p, so
- * they err to the safe side. The rays' own (a, b) are computed in double and widened. */
+ * they err to the safe side. The rays' own (a, b) are computed in double, rounded once, and compared
+ * with rectangles that are widened for it. */
 #pragma once
+
+/* Sixteen roundings: what rays as points, and depths, are widened by. */
+#define GI_WIDER 0x1p-20f
 
 typedef struct Packets {
     /* Rectangle, widened; farthest depth that matters, negative when no ray is left. */
@@ -36,7 +40,8 @@ typedef struct Tile {
     const GiTrace *trace;
     GiBundle *bundle;
     bool any;
-    unsigned alive[GI_PACKET_COUNT]; /* any: bits of rays not yet stopped */
+    unsigned alive[GI_PACKET_COUNT]; /* bits of rays that still look for something */
+    float a[GI_BUNDLE_SIZE], b[GI_BUNDLE_SIZE], far[GI_BUNDLE_SIZE]; /* the rays as points */
     Packets packets;
     Frustum frustum;
     double scale;
@@ -131,15 +136,23 @@ static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiV
             R reach = depth;
             if (!tile->any) reach = depth * r_load(bundle->t_max + i);
             far = R_MAX(far, reach);
+            double lane_a[GI_DOUBLES], lane_b[GI_DOUBLES], lane_far[GI_DOUBLES];
+            r_store(lane_a, a);
+            r_store(lane_b, b);
+            r_store(lane_far, reach);
+            for (int j = 0; j < GI_DOUBLES; j++) {
+                tile->a[i + j] = (float)lane_a[j];
+                tile->b[i + j] = (float)lane_b[j];
+                tile->far[i + j] = (float)(lane_far[j] * tile->scale) * (1 + GI_WIDER);
+            }
         }
-        const float wider = 0x1p-20f;
         packets->a0[k] = (float)r_minimum(a0), packets->a1[k] = (float)r_maximum(a1);
         packets->b0[k] = (float)r_minimum(b0), packets->b1[k] = (float)r_maximum(b1);
-        packets->a0[k] -= wider * (1 + fabsf(packets->a0[k]));
-        packets->a1[k] += wider * (1 + fabsf(packets->a1[k]));
-        packets->b0[k] -= wider * (1 + fabsf(packets->b0[k]));
-        packets->b1[k] += wider * (1 + fabsf(packets->b1[k]));
-        packets->far[k] = (float)(r_maximum(far) * tile->scale) * (1 + wider);
+        packets->a0[k] -= GI_WIDER * (1 + fabsf(packets->a0[k]));
+        packets->a1[k] += GI_WIDER * (1 + fabsf(packets->a1[k]));
+        packets->b0[k] -= GI_WIDER * (1 + fabsf(packets->b0[k]));
+        packets->b1[k] += GI_WIDER * (1 + fabsf(packets->b1[k]));
+        packets->far[k] = (float)(r_maximum(far) * tile->scale) * (1 + GI_WIDER);
         tile->alive[k] = 0xffff;
         if (packets->a0[k] < frustum->a0) frustum->a0 = packets->a0[k];
         if (packets->a1[k] > frustum->a1) frustum->a1 = packets->a1[k];
@@ -222,6 +235,8 @@ static inline unsigned tile_node(const Frustum *frustum, const GiNode *node, flo
 /* Eight shapes as rectangles in the plane of the packets. */
 typedef struct Rectangles { float a0[8], a1[8], b0[8], b1[8], near[8]; } Rectangles;
 
+static inline F widening(F a) { return f_of(GI_WIDER) * (f_of(1) + f_max(a, f_of(0) - a)); }
+
 /* From centres and half extents along u, v, w: (x +- e) / z over all z of the shape, which is
  * farthest out at the nearest or the farthest z. A shape that reaches the apex' own plane covers
  * everything. Returns the bits of those that may concern the tile. */
@@ -234,6 +249,10 @@ static inline unsigned rectangles_of(const Frustum *frustum, int i, const F cent
     F y0 = center[1] - extent[1], y1 = center[1] + extent[1];
     F a0 = f_min(x0 * near_scale, x0 * far_scale), a1 = f_max(x1 * near_scale, x1 * far_scale);
     F b0 = f_min(y0 * near_scale, y0 * far_scale), b1 = f_max(y1 * near_scale, y1 * far_scale);
+    a0 = a0 - widening(a0);
+    a1 = a1 + widening(a1);
+    b0 = b0 - widening(b0);
+    b1 = b1 + widening(b1);
     f_store(rectangles->a0 + i, a0);
     f_store(rectangles->a1 + i, a1);
     f_store(rectangles->b0 + i, b0);
@@ -309,6 +328,24 @@ static inline unsigned tile_overlaps(
     return bits;
 }
 
+/* Bits of the rays of one packet that the rectangle holds and whose end lies behind its nearest
+ * point. */
+static inline unsigned tile_rays(
+    const Tile *tile, const Rectangles *rectangles, int lane, int packet) {
+    unsigned bits = 0;
+    F a0 = f_of(rectangles->a0[lane]), a1 = f_of(rectangles->a1[lane]),
+      b0 = f_of(rectangles->b0[lane]), b1 = f_of(rectangles->b1[lane]),
+      near = f_of(rectangles->near[lane]);
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_FLOATS) {
+        int i = packet * GI_PACKET_SIZE + j;
+        F a = f_load(tile->a + i), b = f_load(tile->b + i);
+        bits |= (f_less_equal(a0, a) & f_less_equal(a, a1) & f_less_equal(b0, b) &
+                    f_less_equal(b, b1) & f_less_equal(near, f_load(tile->far + i)))
+                << j;
+    }
+    return bits & tile->alive[packet];
+}
+
 static inline void tile_refresh_far(Tile *tile) {
     float far = -INFINITY;
     for (int k = 0; k < GI_PACKET_COUNT; k++) {
@@ -337,12 +374,17 @@ static inline void resolve_ties(Tile *tile, GiShapeRef ref, int i, unsigned bits
     }
 }
 
-/* One shape against one packet. Returns whether anything changed. */
-static inline bool test_closest(Tile *tile, GiShapeRef ref, int packet) {
+/* Whether one of the rays j .. j + GI_DOUBLES - 1 is among the bits. */
+static inline bool any_of(unsigned bits, int j) {
+    return (bits >> j & ((1u << GI_DOUBLES) - 1)) != 0;
+}
+
+/* One shape against those rays of a packet whose bits are set. Returns whether anything changed. */
+static inline bool test_closest(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
     GiBundle *bundle = tile->bundle;
     unsigned changed = 0;
-    R far = R_OF(-INFINITY);
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
+        if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
         gi_wide_Ray ray = tile_ray(bundle, i);
         R t, best = r_load(bundle->t + i);
@@ -351,43 +393,47 @@ static inline bool test_closest(Tile *tile, GiShapeRef ref, int packet) {
         M nearer = hit & R_LESS(t, best);
         unsigned bits = m_bits(nearer), ties = m_bits(hit & R_EQUAL(t, best));
         if (bits != 0) {
-            best = R_SELECT(nearer, t, best);
-            r_store(bundle->t + i, best);
+            r_store(bundle->t + i, R_SELECT(nearer, t, best));
             u_store_where(bundle->shape + i, bits, ref.bits);
             changed |= bits;
         }
         if (ties != 0) resolve_ties(tile, ref, i, ties);
-        far = R_MAX(far, best * r_load(bundle->depth + i));
     }
     if (changed == 0) return false;
-    tile->packets.far[packet] = (float)(r_maximum(far) * tile->scale) * (1 + 0x1p-20f);
+    R far = R_OF(-INFINITY);
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
+        int i = packet * GI_PACKET_SIZE + j;
+        far = R_MAX(far, r_load(bundle->t + i) * r_load(bundle->depth + i));
+    }
+    tile->packets.far[packet] = (float)(r_maximum(far) * tile->scale) * (1 + GI_WIDER);
     return true;
 }
 
-static inline bool test_any(Tile *tile, GiShapeRef ref, int packet) {
+static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
     GiBundle *bundle = tile->bundle;
-    unsigned alive = tile->alive[packet], before = alive;
+    unsigned stopped = 0;
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
-        if ((alive >> j & ((1u << GI_DOUBLES) - 1)) == 0) continue;
+        if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
         gi_wide_Ray ray = tile_ray(bundle, i);
         R t;
         M hit = gi_wide_shape(tile->trace->shapes, ref, &ray, r_load(bundle->t_min + i),
             r_load(bundle->t_max + i), &t);
-        for (unsigned bits = m_bits(hit) & (alive >> j); bits != 0; bits &= bits - 1) {
+        for (unsigned bits = m_bits(hit) & rays >> j; bits != 0; bits &= bits - 1) {
             int lane = lowest_bit(bits);
             if (bundle->skip[i + lane] == ref.bits) continue;
             bundle->shape[i + lane] = ref.bits;
-            alive &= ~(1u << (j + lane));
+            stopped |= 1u << (j + lane);
         }
     }
-    tile->alive[packet] = alive;
-    if (alive == 0) tile->packets.far[packet] = -INFINITY;
-    return alive == 0 && before != 0;
+    tile->alive[packet] &= ~stopped;
+    if (stopped == 0 || tile->alive[packet] != 0) return false;
+    tile->packets.far[packet] = -INFINITY;
+    return true;
 }
 
-static inline bool tile_test(Tile *tile, GiShapeRef ref, int packet) {
-    return tile->any ? test_any(tile, ref, packet) : test_closest(tile, ref, packet);
+static inline bool tile_test(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
+    return tile->any ? test_any(tile, ref, packet, rays) : test_closest(tile, ref, packet, rays);
 }
 
 /* ---------------------------------------------------------------- the walk */
@@ -413,7 +459,9 @@ static inline void tile_block(Tile *tile, uint32_t child) {
         int lane = lowest_bit(bits);
         unsigned overlapped = tile_overlaps(&tile->packets, &rectangles, lane);
         for (; overlapped != 0; overlapped &= overlapped - 1) {
-            changed |= tile_test(tile, shapes[lane], lowest_bit(overlapped));
+            int packet = lowest_bit(overlapped);
+            unsigned rays = tile_rays(tile, &rectangles, lane, packet);
+            if (rays != 0) changed |= tile_test(tile, shapes[lane], packet, rays);
         }
     }
     if (changed) tile_refresh_far(tile);
@@ -423,7 +471,9 @@ static inline void tile_walk(Tile *tile) {
     const GiTree *tree = tile->trace->tree;
     int packet_count = (tile->bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
     for (uint32_t i = 0; i < tree->unbounded_count; i++) {
-        for (int k = 0; k < packet_count; k++) tile_test(tile, tree->unbounded[i], k);
+        for (int k = 0; k < packet_count; k++) {
+            tile_test(tile, tree->unbounded[i], k, tile->alive[k]);
+        }
     }
     if (tree->unbounded_count > 0) tile_refresh_far(tile);
     StackEntry stack[STACK_LIMIT];

@@ -143,8 +143,7 @@ void gi_element_index_init(GiElementIndex *index) {
     }
 }
 
-const GiElement *gi_element_find(
-    const GiElementIndex *index, const char *name, uint32_t contexts) {
+const GiElement *gi_element_find(const GiElementIndex *index, const char *name, uint32_t contexts) {
     for (unsigned row = index->first[hash_name(name)]; row != 0; row = index->next[row - 1]) {
         const GiElement *element = &gi_elements[row - 1];
         if ((element->contexts & contexts) != 0 && same_name(element->name, name)) return element;
@@ -211,9 +210,7 @@ typedef struct Enumeration {
 } Enumeration;
 
 static void enumerate(Enumeration *list, const char *word) {
-    const char *joint = list->index == 0                 ? ""
-                        : list->index + 1 == list->count ? " or "
-                                                         : ", ";
+    const char *joint = list->index == 0 ? "" : list->index + 1 == list->count ? " or " : ", ";
     list->index++;
     int written =
         snprintf(list->buffer + list->length, list->size - list->length, "%s%s", joint, word);

@@ -51,9 +51,9 @@ typedef enum GiCheck {
     GI_CHECK_NONE,
     GI_CHECK_POSITIVE,
     GI_CHECK_NOT_NEGATIVE,
-    GI_CHECK_LENGTH,   /* a vector that is not zero */
-    GI_CHECK_NO_ZERO,  /* no component is zero */
-    GI_CHECK_ANGLE,    /* between 0 and 180, both excluded */
+    GI_CHECK_LENGTH,  /* a vector that is not zero */
+    GI_CHECK_NO_ZERO, /* no component is zero */
+    GI_CHECK_ANGLE,   /* between 0 and 180, both excluded */
     GI_CHECK_IMAGE_SIZE
 } GiCheck;
 
@@ -99,9 +99,9 @@ typedef struct GiElement {
     GiSlot slot;
     const char *default_text; /* null: required, or nothing */
     GiCheck check;
-    unsigned evidence;        /* a set of GiEvidence: which year it points to */
-    const char *choices;      /* words separated by spaces */
-    const char *alias_of;     /* null, or the name of the main row */
+    unsigned evidence;    /* a set of GiEvidence: which year it points to */
+    const char *choices;  /* words separated by spaces */
+    const char *alias_of; /* null, or the name of the main row */
     const char *help;
 } GiElement;
 
@@ -128,8 +128,7 @@ typedef struct GiElementIndex {
 void gi_element_index_init(GiElementIndex *index);
 
 /* The element of that name (in any case) that may stand in one of the contexts, or null. */
-const GiElement *gi_element_find(
-    const GiElementIndex *index, const char *name, uint32_t contexts);
+const GiElement *gi_element_find(const GiElementIndex *index, const char *name, uint32_t contexts);
 
 /* Name exact, without the package. Null when the kind has no such type. */
 const GiType *gi_type_find(const char *name, GiKind kind);

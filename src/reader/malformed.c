@@ -11,10 +11,10 @@ static bool is_blank(unsigned unit) {
 }
 
 static bool is_name(unsigned unit) {
-    return unit != GI_WINDOW_END && (unit >= 0x80 || (unit >= 'a' && unit <= 'z') ||
-                                        (unit >= 'A' && unit <= 'Z') ||
-                                        (unit >= '0' && unit <= '9') || unit == '_' ||
-                                        unit == '-' || unit == '.' || unit == ':');
+    return unit != GI_WINDOW_END &&
+           (unit >= 0x80 || (unit >= 'a' && unit <= 'z') || (unit >= 'A' && unit <= 'Z') ||
+               (unit >= '0' && unit <= '9') || unit == '_' || unit == '-' || unit == '.' ||
+               unit == ':');
 }
 
 /* Characters of the word at an offset, as far as they are those of an XML name; at most 40. */
@@ -164,7 +164,9 @@ static int64_t find_junk(const GiReader *reader, int64_t fallback) {
     if (!gi_window_holds(window, p)) return fallback;
     for (;;) {
         while (is_blank(gi_window_at(window, p))) p += unit;
-        const char *end = begins_with(window, p, "<!--") ? "-->" : begins_with(window, p, "<?") ? "?>" : NULL;
+        const char *end = begins_with(window, p, "<!--") ? "-->"
+                          : begins_with(window, p, "<?") ? "?>"
+                                                         : NULL;
         if (end == NULL) return p;
         int64_t begin = p;
         while (!begins_with(window, p, end)) {
@@ -206,8 +208,7 @@ void gi_malformed_report(GiReader *reader) {
         break;
     case XML_ERROR_INVALID_TOKEN:
     case XML_ERROR_SYNTAX:
-        if (reader->frames.count == 0 &&
-            gi_window_at(&reader->window, offset) != '<' &&
+        if (reader->frames.count == 0 && gi_window_at(&reader->window, offset) != '<' &&
             gi_window_at(&reader->window, offset) >= 0x20 &&
             gi_window_at(&reader->window, offset - gi_window_unit(&reader->window)) != '<' &&
             code == XML_ERROR_SYNTAX) {
@@ -251,8 +252,6 @@ void gi_malformed_report(GiReader *reader) {
             "the encoding \"%s\" is declared, but the file is in another: save it as UTF-8",
             gi_quote(quote, reader->encoding, strlen(reader->encoding)));
         break;
-    default:
-        gi_report_add(report, place, 1, "malformed XML: %s", XML_ErrorString(code));
-        break;
+    default: gi_report_add(report, place, 1, "malformed XML: %s", XML_ErrorString(code)); break;
     }
 }

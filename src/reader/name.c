@@ -8,6 +8,7 @@
 void gi_names_init(GiNames *names, GiMemory *memory) {
     memset(names, 0, sizeof *names);
     names->memory = memory;
+    names->seed = (uint32_t)((uintptr_t)names >> 4);
 }
 
 void gi_names_reset(GiNames *names) {
@@ -19,10 +20,13 @@ void gi_names_reset(GiNames *names) {
     names->slot_count = 0;
 }
 
-static uint32_t hash_text(const char *text) {
-    uint32_t hash = UINT32_C(2166136261); /* FNV-1a, then mixed for the low bits */
-    for (; *text != '\0'; text++) hash = (hash ^ (unsigned char)*text) * UINT32_C(16777619);
-    return hash ^ hash >> 15;
+static uint32_t hash_text(const GiNames *names, const char *text) {
+    uint32_t hash = names->seed ^ UINT32_C(2166136261); /* FNV-1a, with bits from above mixed in */
+    for (; *text != '\0'; text++) {
+        hash = (hash ^ (unsigned char)*text) * UINT32_C(16777619);
+        hash ^= hash >> 15;
+    }
+    return hash;
 }
 
 /* The slot of the name, or the empty slot where it would go. */
@@ -54,7 +58,7 @@ static bool grow(GiNames *names) {
 bool gi_names_set(GiNames *names, const char *name, GiNamed named) {
     size_t size = strlen(name) + 1;
     if (names->entries.count * 2 >= names->slot_count && !grow(names)) return false;
-    named.hash = hash_text(name);
+    named.hash = hash_text(names, name);
     uint32_t *slot = find_slot(names, name, named.hash);
     if (*slot != 0) {
         named.text = names->entries.data[*slot - 1].text;
@@ -75,7 +79,7 @@ bool gi_names_set(GiNames *names, const char *name, GiNamed named) {
 
 const GiNamed *gi_names_get(const GiNames *names, const char *name) {
     if (names->slot_count == 0) return NULL;
-    uint32_t slot = *find_slot(names, name, hash_text(name));
+    uint32_t slot = *find_slot(names, name, hash_text(names, name));
     return slot == 0 ? NULL : &names->entries.data[slot - 1];
 }
 

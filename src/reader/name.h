@@ -9,14 +9,15 @@
 typedef struct GiNamed {
     uint32_t text; /* into the map's text */
     uint32_t hash;
-    uint8_t kind;  /* GiKind */
-    bool broken;   /* its definition has an error, which is reported: a use of it is not another */
+    uint8_t kind;   /* GiKind */
+    bool broken;    /* its definition has an error, which is reported: a use of it is not another */
     uint32_t index; /* of the values, cameras, shaders or lights */
     GiShapeRef shape;
 } GiNamed;
 
 typedef struct GiNames {
     GiMemory *memory;
+    uint32_t seed; /* of the hash: a file cannot know which names will collide */
     GI_ARRAY(char) text;
     GI_ARRAY(GiNamed) entries;
     GI_ARRAY(GiVec) values; /* of value elements */

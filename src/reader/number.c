@@ -34,7 +34,8 @@ static double assemble(uint64_t mantissa, int exponent, bool sticky) {
         uint64_t half = UINT64_C(1) << (shift - 1);
         if (rest > half || (rest == half && (sticky || (kept & 1) != 0))) kept++;
     }
-    /* The implicit bit of `kept` adds one to the exponent field; so does a carry out of rounding. */
+    /* The implicit bit of `kept` adds one to the exponent field; so does a carry out of rounding.
+     */
     uint64_t bits = kept + (top >= -1022 ? (uint64_t)(top + 1022) << 52 : 0);
     if (top > 1023 || bits > UINT64_C(0x7ff) << 52) bits = UINT64_C(0x7ff) << 52;
     double value;
@@ -66,8 +67,7 @@ static double assemble_wide(Wide value, int exponent, bool sticky) {
     int shift = high == 0 ? 64 : leading_zeros(high);
     if (shift == 64) shift += leading_zeros((uint64_t)value);
     value <<= shift;
-    return assemble(
-        (uint64_t)(value >> 64), exponent + 64 - shift, sticky || (uint64_t)value != 0);
+    return assemble((uint64_t)(value >> 64), exponent + 64 - shift, sticky || (uint64_t)value != 0);
 }
 
 /* digits * 10^exponent for digits > 0 and |exponent| <= 27. */
@@ -77,14 +77,11 @@ static double convert_wide(uint64_t digits, int exponent) {
     if (exponent >= 0) return assemble_wide((Wide)digits * power, exponent, false);
     int shift = leading_zeros(digits);
     Wide dividend = (Wide)(digits << shift) << 64;
-    return assemble_wide(
-        dividend / power, exponent - shift - 64, dividend % power != 0);
+    return assemble_wide(dividend / power, exponent - shift - 64, dividend % power != 0);
 }
 #else
 #define WIDE_EXPONENT -1
-static double convert_wide(uint64_t digits, int exponent) {
-    return (double)digits * exponent;
-}
+static double convert_wide(uint64_t digits, int exponent) { return (double)digits * exponent; }
 #endif
 
 /* ---------------------------------------------------------------- any length */
@@ -225,8 +222,8 @@ GiNumberStatus gi_number_read(const char *text, size_t size, double *value, size
 
     Decimal decimal = {.digits = NULL};
     const char *point = NULL;
-    int64_t digit_count = 0; /* all digits, leading zeros too */
-    int significant = 0;     /* digits in decimal.leading */
+    int64_t digit_count = 0;    /* all digits, leading zeros too */
+    int significant = 0;        /* digits in decimal.leading */
     int64_t point_exponent = 0; /* the number is 0.digits * 10^point_exponent */
     for (; p < end; p++) {
         if (*p == '.' && point == NULL) {

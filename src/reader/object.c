@@ -9,8 +9,7 @@ static uint64_t slot_bits(GiSlot first, GiSlot last) {
 }
 
 static GiVec slot(const GiReader *reader, GiSlot which) {
-    return gi_reader_is_given(reader, which) ? reader->slots[which].value
-                                             : reader->defaults[which];
+    return gi_reader_is_given(reader, which) ? reader->slots[which].value : reader->defaults[which];
 }
 
 static bool is_group(const GiFrame *frame) {
@@ -38,8 +37,7 @@ void gi_object_name_value(GiReader *reader, const GiFrame *frame, GiVec value) {
         gi_reader_out_of_memory(reader);
         return;
     }
-    gi_object_name(
-        reader, frame, (GiNamed){.kind = (uint8_t)frame->element->kind, .index = index});
+    gi_object_name(reader, frame, (GiNamed){.kind = (uint8_t)frame->element->kind, .index = index});
 }
 
 /* ---------------------------------------------------------------- beginning and values */
@@ -62,25 +60,22 @@ void gi_object_begin(GiReader *reader, GiFrame *frame) {
         reader->given &= ~slot_bits(GI_SLOT_CENTER, GI_SLOT_NORMAL);
         frame->index = 0; /* the default shader */
         break;
-    case GI_KIND_SHADER:
-        reader->given &= ~slot_bits(GI_SLOT_DIFFUSE, GI_SLOT_EXPONENT);
-        break;
-    case GI_KIND_LIGHT:
-        reader->given &= ~slot_bits(GI_SLOT_POSITION, GI_SLOT_FALLOFF);
-        break;
+    case GI_KIND_SHADER: reader->given &= ~slot_bits(GI_SLOT_DIFFUSE, GI_SLOT_EXPONENT); break;
+    case GI_KIND_LIGHT: reader->given &= ~slot_bits(GI_SLOT_POSITION, GI_SLOT_FALLOFF); break;
     default: break;
     }
 }
 
-static void add_step(GiReader *reader, const GiFrame *parent, GiTransformStepKind kind, GiVec value) {
+static void add_step(
+    GiReader *reader, const GiFrame *parent, GiTransformStepKind kind, GiVec value) {
     if (!is_group(parent)) return; /* a surface of unknown type */
     if (!gi_scene_add_step(reader->scene, parent->index, kind, value)) {
         gi_reader_out_of_memory(reader);
     }
 }
 
-void gi_object_set(GiReader *reader, GiFrame *parent, const GiElement *element, GiVec value,
-    GiPlace place) {
+void gi_object_set(
+    GiReader *reader, GiFrame *parent, const GiElement *element, GiVec value, GiPlace place) {
     GiScene *scene = reader->scene;
     switch (element->slot) {
     case GI_SLOT_IMAGE:
@@ -123,7 +118,8 @@ static GiPlace place_of_fault(const GiReader *reader, const GiFrame *frame, cons
 
 static void finish_camera(GiReader *reader, GiFrame *frame) {
     GiCamera camera = {
-        .type = frame->type != NULL ? (GlintCameraType)frame->type->value : GLINT_CAMERA_PERSPECTIVE,
+        .type =
+            frame->type != NULL ? (GlintCameraType)frame->type->value : GLINT_CAMERA_PERSPECTIVE,
         .view_point = slot(reader, GI_SLOT_VIEW_POINT),
         .view_direction = slot(reader, GI_SLOT_VIEW_DIR),
         .view_up = slot(reader, GI_SLOT_VIEW_UP),
@@ -138,8 +134,9 @@ static void finish_camera(GiReader *reader, GiFrame *frame) {
         bool parallel = strstr(fault, "parallel") != NULL;
         gi_report_add(&reader->report, place_of_fault(reader, frame, fault), 1, "%s%s", fault,
             !parallel ? ""
-            : normal  ? ": what is up in the picture is then undefined"
-                      : ", which is viewDir turned round: what is up in the picture is then undefined");
+            : normal
+                ? ": what is up in the picture is then undefined"
+                : ", which is viewDir turned round: what is up in the picture is then undefined");
         frame->broken = true;
     }
     if (frame->broken) {
@@ -211,22 +208,22 @@ static void finish_light(GiReader *reader, GiFrame *frame) {
 /* ---------------------------------------------------------------- surfaces */
 
 /* The rules of docs/scene-format.md, 5.4, for the apex. False when there is no cone. */
-static bool find_tip(GiReader *reader, const GiFrame *frame, GiVec center, double radius, double *tip) {
+static bool find_tip(
+    GiReader *reader, const GiFrame *frame, GiVec center, double radius, double *tip) {
     bool tip_given = gi_reader_is_given(reader, GI_SLOT_TIPZ);
     bool theta_given = gi_reader_is_given(reader, GI_SLOT_THETA);
     bool radius_given = gi_reader_is_given(reader, GI_SLOT_RADIUS);
     bool by_angle = !tip_given && (theta_given || !radius_given);
-    *tip = by_angle
-               ? gi_scene_cone_tip(center.z, radius, slot(reader, GI_SLOT_THETA).x)
-               : slot(reader, GI_SLOT_TIPZ).x;
+    *tip = by_angle ? gi_scene_cone_tip(center.z, radius, slot(reader, GI_SLOT_THETA).x)
+                    : slot(reader, GI_SLOT_TIPZ).x;
     const char *fault = gi_scene_check_cone(center.z, *tip);
     if (fault == NULL && !isfinite(radius / (*tip - center.z))) {
         fault = "the cone is too steep or too flat for its slope to be a number";
     }
     if (fault == NULL) return true;
-    GiPlace place = tip_given      ? reader->slots[GI_SLOT_TIPZ].place
-                    : theta_given  ? reader->slots[GI_SLOT_THETA].place
-                                   : frame->place;
+    GiPlace place = tip_given     ? reader->slots[GI_SLOT_TIPZ].place
+                    : theta_given ? reader->slots[GI_SLOT_THETA].place
+                                  : frame->place;
     gi_report_add(&reader->report, place, 1, "%s%s", fault,
         tip_given     ? ""
         : theta_given ? ": theta is too near to 180"
@@ -241,7 +238,9 @@ static bool add_shape(GiReader *reader, GiFrame *frame, GiShapeRef *ref) {
     uint32_t shader = frame->index;
     bool added = true;
     switch ((GlintSurfaceType)frame->type->value) {
-    case GLINT_SURFACE_SPHERE: added = gi_scene_add_sphere(scene, center, radius, shader, ref); break;
+    case GLINT_SURFACE_SPHERE:
+        added = gi_scene_add_sphere(scene, center, radius, shader, ref);
+        break;
     case GLINT_SURFACE_BOX:
         added = gi_scene_add_box(
             scene, slot(reader, GI_SLOT_MIN_PT), slot(reader, GI_SLOT_MAX_PT), shader, ref);
@@ -258,8 +257,8 @@ static bool add_shape(GiReader *reader, GiFrame *frame, GiShapeRef *ref) {
             scene, slot(reader, GI_SLOT_POINT), slot(reader, GI_SLOT_NORMAL), shader, ref);
         break;
     case GLINT_SURFACE_DISC:
-        added = gi_scene_add_disc(scene, slot(reader, GI_SLOT_POINT), slot(reader, GI_SLOT_NORMAL),
-            radius, shader, ref);
+        added = gi_scene_add_disc(
+            scene, slot(reader, GI_SLOT_POINT), slot(reader, GI_SLOT_NORMAL), radius, shader, ref);
         break;
     case GLINT_SURFACE_GROUP: {
         GiAffine matrix;
@@ -300,8 +299,8 @@ static void finish_scene(GiReader *reader, const GiFrame *frame) {
     GiPlace root = reader->report.root;
     int length = 1 + (int)strlen(reader->tags.data + frame->tag);
     if (!reader->camera_seen) {
-        gi_report_add(&reader->report, root, length,
-            "the scene has no camera: add a `camera` element");
+        gi_report_add(
+            &reader->report, root, length, "the scene has no camera: add a `camera` element");
     }
     if (!reader->image_seen) {
         gi_report_add(&reader->report, root, length,

@@ -28,8 +28,8 @@ static void *resize_block(void *pointer, size_t size) {
     if (size > SIZE_MAX - sizeof(Header)) return NULL;
     Header *old = pointer != NULL ? (Header *)pointer - 1 : NULL;
     GiMemory *memory = old != NULL ? old->block.memory : parser_memory;
-    Header *header = gi_memory_resize(memory, old,
-        old != NULL ? old->block.size + sizeof(Header) : 0, size + sizeof(Header));
+    Header *header = gi_memory_resize(
+        memory, old, old != NULL ? old->block.size + sizeof(Header) : 0, size + sizeof(Header));
     if (header == NULL) return NULL;
     header->block.memory = memory;
     header->block.size = size;
@@ -173,8 +173,7 @@ static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintE
             return gi_error_set(error, GLINT_CANCELLED, "cancelled while reading the scene");
         }
         size_t size = wanted - got < CHUNK_SIZE ? wanted - got : CHUNK_SIZE;
-        int64_t count =
-            source->read(source->user, reader->window.data + reader->window.size, size);
+        int64_t count = source->read(source->user, reader->window.data + reader->window.size, size);
         if (count < 0 || (uint64_t)count > size) {
             return gi_error_set_path(
                 error, GLINT_ERROR_FILE, source->name, "the file cannot be read");
@@ -214,9 +213,9 @@ static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
         if (first) gi_window_detect(&reader->window);
         first = false;
         parser_memory = reader->memory;
-        enum XML_Status parsed = XML_Parse(reader->parser,
-            (const char *)reader->window.data + old_size, (int)(reader->window.size - old_size),
-            feed->ended);
+        enum XML_Status parsed =
+            XML_Parse(reader->parser, (const char *)reader->window.data + old_size,
+                (int)(reader->window.size - old_size), feed->ended);
         if (parsed != XML_STATUS_ERROR) continue;
         if (!reader->stopped) {
             int64_t place = parsed_end(reader);
@@ -256,7 +255,8 @@ static void open_reader(GiReader *reader, GiScene *scene) {
     gi_report_init(&reader->report, scene->memory, &reader->window);
     gi_names_init(&reader->names, scene->memory);
     for (const GiElement *e = gi_elements; e->name != NULL; e++) {
-        if (e->default_text != NULL) reader->defaults[e->slot] = gi_value_parse_default(e->default_text);
+        if (e->default_text != NULL)
+            reader->defaults[e->slot] = gi_value_parse_default(e->default_text);
     }
 }
 
@@ -287,15 +287,16 @@ GlintStatus gi_reader_load(
         }
         gi_report_capture(&reader->report, INT64_MAX);
         if (status == GLINT_OK) {
-            gi_report_emit(&reader->report, source->name, source->diagnostic,
-                source->diagnostic_user, error);
+            gi_report_emit(
+                &reader->report, source->name, source->diagnostic, source->diagnostic_user, error);
             status = GLINT_ERROR_SCENE;
         }
     }
     if (status == GLINT_OK) {
-        scene->dialect = source->dialect != GLINT_DIALECT_AUTO   ? source->dialect
-                         : reader->dialect != GLINT_DIALECT_AUTO ? reader->dialect
-                                                                 : gi_dialect_detect(reader->evidence);
+        scene->dialect = source->dialect != GLINT_DIALECT_AUTO ? source->dialect
+                         : reader->dialect != GLINT_DIALECT_AUTO
+                             ? reader->dialect
+                             : gi_dialect_detect(reader->evidence);
     }
     if (result != NULL) result->byte_count = feed.total;
     close_reader(reader);

@@ -7,9 +7,9 @@
 typedef struct GiReaderSource {
     GlintReadFn read;
     void *user;
-    const char *name;            /* for messages */
-    int64_t total_size;          /* bytes, for progress; -1: not known */
-    const GlintMonitor *monitor; /* null: none */
+    const char *name;             /* for messages */
+    int64_t total_size;           /* bytes, for progress; -1: not known */
+    const GlintMonitor *monitor;  /* null: none */
     GlintDiagnosticFn diagnostic; /* null: none */
     void *diagnostic_user;
     GlintDialect dialect; /* AUTO: what the file says or shows */

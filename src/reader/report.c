@@ -118,7 +118,8 @@ const char *gi_quote(char *buffer, const char *text, size_t size) {
             length += 3;
             break;
         }
-        unsigned char c = (unsigned char)text[i], next = i + 1 < size ? (unsigned char)text[i + 1] : 0;
+        unsigned char c = (unsigned char)text[i],
+                      next = i + 1 < size ? (unsigned char)text[i + 1] : 0;
         bool control = c < 0x20 || c == 0x7f || (c == 0xc2 && next < 0xa0);
         if (control) {
             buffer[length++] = '?';
@@ -135,6 +136,7 @@ const char *gi_quote(char *buffer, const char *text, size_t size) {
 
 int gi_text_length(const char *text, size_t size) {
     int count = 0;
-    for (size_t i = 0; i < size && count < INT_MAX; i++) count += ((unsigned char)text[i] & 0xc0) != 0x80;
+    for (size_t i = 0; i < size && count < INT_MAX; i++)
+        count += ((unsigned char)text[i] & 0xc0) != 0x80;
     return count;
 }

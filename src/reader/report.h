@@ -48,8 +48,8 @@ void gi_report_keep_root(GiReport *report, GiPlace place);
 void gi_report_capture(GiReport *report, int64_t end);
 
 /* Hands everything to the callback (when there is one) and the first error to *error. */
-void gi_report_emit(
-    GiReport *report, const char *path, GlintDiagnosticFn diagnostic, void *user, GlintError *error);
+void gi_report_emit(GiReport *report, const char *path, GlintDiagnosticFn diagnostic, void *user,
+    GlintError *error);
 
 /* Text of the user's for a message: at most 40 characters, without control characters. Returns
  * buffer, which has GI_QUOTE_SIZE bytes. */

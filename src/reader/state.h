@@ -14,9 +14,9 @@
 
 enum {
     GI_DEPTH_LIMIT = 100000,
-    GI_NAME_LIMIT = 4096,    /* bytes of a name or ref */
-    GI_TEXT_LIMIT = 4096,    /* characters of a value, runs of white space counted once */
-    GI_SEGMENT_LIMIT = 256   /* pieces of a value whose places are told apart */
+    GI_NAME_LIMIT = 4096,  /* bytes of a name or ref */
+    GI_TEXT_LIMIT = 4096,  /* characters of a value, runs of white space counted once */
+    GI_SEGMENT_LIMIT = 256 /* pieces of a value whose places are told apart */
 };
 
 typedef enum GiSkip {
@@ -116,13 +116,12 @@ GiVec gi_value_parse_default(const char *text);
 /* ---- object.c: values to the model */
 void gi_object_begin(GiReader *reader, GiFrame *frame);
 /* A value element of the parent (may be the scene, a group or another object) has this value. */
-void gi_object_set(GiReader *reader, GiFrame *parent, const GiElement *element, GiVec value,
-    GiPlace place);
+void gi_object_set(
+    GiReader *reader, GiFrame *parent, const GiElement *element, GiVec value, GiPlace place);
 /* Adds the object of the frame to the model and tells the names and the parent. */
 void gi_object_finish(GiReader *reader, GiFrame *frame, GiFrame *parent);
 /* Uses a named thing as if it had been written here. */
-void gi_object_refer(
-    GiReader *reader, GiFrame *frame, GiFrame *parent, const GiNamed *named);
+void gi_object_refer(GiReader *reader, GiFrame *frame, GiFrame *parent, const GiNamed *named);
 /* Remembers what the frame stands for under its name, when it has one. */
 void gi_object_name(GiReader *reader, const GiFrame *frame, GiNamed named);
 /* Remembers a value. */

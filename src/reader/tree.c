@@ -19,7 +19,8 @@ GiPlace gi_tree_attribute(GiReader *reader, int index, bool value, int *length) 
     int unit = gi_window_unit(window);
     int64_t p = tag.offset + unit;
     *length = 1;
-    while (gi_window_at(window, p) != GI_WINDOW_END && !is_blank(gi_window_at(window, p))) p += unit;
+    while (gi_window_at(window, p) != GI_WINDOW_END && !is_blank(gi_window_at(window, p)))
+        p += unit;
     for (int i = 0;; i++) {
         while (is_blank(gi_window_at(window, p))) p += unit;
         int64_t name = p;
@@ -76,8 +77,8 @@ static GiFrame *push_frame(GiReader *reader, const char *tag) {
     size_t length = 0;
     while (length < TAG_SHOWN && tag[length] != '\0') length++;
     if (reader->frames.count >= GI_DEPTH_LIMIT) {
-        gi_report_add(&reader->report, frame.place, 1,
-            "elements are nested more than %d deep", GI_DEPTH_LIMIT);
+        gi_report_add(&reader->report, frame.place, 1, "elements are nested more than %d deep",
+            GI_DEPTH_LIMIT);
         gi_reader_stop(reader);
         return NULL;
     }
@@ -130,7 +131,8 @@ static const GiElement *report_element(
     place_words(parent, here, sizeof here);
     const GiElement *elsewhere = gi_element_find(&reader->elements, tag, UINT32_MAX);
     if (elsewhere == NULL && size == 5 && gi_edit_distance(tag, 5, "scene", 5, 0) == 0) {
-        gi_report_add(report, place, length, "`scene` is the root element and cannot stand in %s", here);
+        gi_report_add(
+            report, place, length, "`scene` is the root element and cannot stand in %s", here);
         return NULL;
     }
     if (elsewhere != NULL) {
@@ -153,8 +155,8 @@ static const GiElement *report_element(
         if ((e->contexts & parent->contexts) != 0) gi_suggestion_offer(&suggestion, e->name);
     }
     if (suggestion.best != NULL) {
-        gi_report_add(report, place, length, "unknown element `%s` in %s: did you mean `%s`?", quote,
-            here, suggestion.best);
+        gi_report_add(report, place, length, "unknown element `%s` in %s: did you mean `%s`?",
+            quote, here, suggestion.best);
         return gi_element_find(&reader->elements, suggestion.best, parent->contexts);
     }
     for (const GiElement *e = gi_elements; e->name != NULL; e++) {
@@ -179,7 +181,8 @@ typedef struct Attributes {
     int name_index, ref_index, type_index, dialect_index;
 } Attributes;
 
-static void report_attribute(GiReader *reader, const GiElement *element, const char *name, int index) {
+static void report_attribute(
+    GiReader *reader, const GiElement *element, const char *name, int index) {
     if (gi_report_is_full(&reader->report)) {
         reader->report.error_count++;
         return;
@@ -235,8 +238,8 @@ static bool read_attributes(
         if (long_value) {
             int length;
             GiPlace place = gi_tree_attribute(reader, i, true, &length);
-            gi_report_add(&reader->report, place, length,
-                "the %s of %s is longer than %d bytes", name, element->name, GI_NAME_LIMIT);
+            gi_report_add(&reader->report, place, length, "the %s of %s is longer than %d bytes",
+                name, element->name, GI_NAME_LIMIT);
             if (name[0] == 'n') attributes->name = NULL;
             good = false;
         }
@@ -255,8 +258,8 @@ static void read_dialect(GiReader *reader, const char *name, int index) {
     }
     gi_quote(quote, name, strlen(name));
     if (suggestion.best != NULL) {
-        gi_report_add(&reader->report, place, length, "unknown dialect \"%s\": did you mean \"%s\"?",
-            quote, suggestion.best);
+        gi_report_add(&reader->report, place, length,
+            "unknown dialect \"%s\": did you mean \"%s\"?", quote, suggestion.best);
         return;
     }
     gi_report_add(&reader->report, place, length,
@@ -267,8 +270,7 @@ static void read_dialect(GiReader *reader, const char *name, int index) {
 
 /* Finds the type of an object, or reports. With a near miss the type that was meant is used, so
  * that what stands inside is judged by it. */
-static void read_type(
-    GiReader *reader, GiFrame *frame, const Attributes *attributes) {
+static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attributes) {
     GiKind kind = frame->element->kind;
     const char *noun = strchr(gi_kind_text(kind), ' ') + 1, *name = attributes->type;
     char list[240], quote[GI_QUOTE_SIZE];
@@ -311,13 +313,13 @@ static void read_type(
         if (type->kind == kind) gi_suggestion_offer(&suggestion, type->name);
     }
     if (suggestion.best != NULL) {
-        gi_report_add(&reader->report, place, length, "unknown %s type \"%s\": did you mean \"%s\"?",
-            noun, quote, suggestion.best);
+        gi_report_add(&reader->report, place, length,
+            "unknown %s type \"%s\": did you mean \"%s\"?", noun, quote, suggestion.best);
         frame->type = gi_type_find(suggestion.best, kind);
         return;
     }
-    gi_report_add(&reader->report, place, length, "unknown %s type \"%s\": there are %s", noun,
-        quote, list);
+    gi_report_add(
+        &reader->report, place, length, "unknown %s type \"%s\": there are %s", noun, quote, list);
 }
 
 /* An attribute `ref`: the named thing takes the place of this element. */
@@ -329,7 +331,8 @@ static void read_ref(GiReader *reader, GiFrame *frame, const Attributes *attribu
     if (named != NULL && !named->broken) {
         GiKind named_kind = (GiKind)named->kind;
         /* A vector, a point and a colour are three numbers alike. */
-        bool same = kind == named_kind || (gi_kind_count(kind) == 3 && gi_kind_count(named_kind) == 3);
+        bool same =
+            kind == named_kind || (gi_kind_count(kind) == 3 && gi_kind_count(named_kind) == 3);
         if (same) {
             gi_object_refer(reader, frame, parent, named);
             return;
@@ -358,8 +361,8 @@ static void read_ref(GiReader *reader, GiFrame *frame, const Attributes *attribu
             "nothing is named \"%s\" before this line: did you mean \"%s\"?", quote,
             gi_quote(near, best, strlen(best)));
     } else {
-        gi_report_add(&reader->report, place, length, "nothing is named \"%s\" before this line",
-            quote);
+        gi_report_add(
+            &reader->report, place, length, "nothing is named \"%s\" before this line", quote);
     }
 }
 
@@ -397,7 +400,8 @@ void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **lis
     if (element == NULL) {
         /* Of a type that is not known, nobody can say what belongs in it. */
         bool judged = parent == NULL || parent->type != NULL ||
-                      parent->element->kind == GI_KIND_SCENE || !gi_kind_is_object(parent->element->kind);
+                      parent->element->kind == GI_KIND_SCENE ||
+                      !gi_kind_is_object(parent->element->kind);
         if (parent != NULL) parent->broken = true;
         element = judged ? report_element(reader, parent, tag, frame->place) : NULL;
         frame->broken = true;
@@ -434,8 +438,7 @@ void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **lis
         return;
     }
     if (element->kind != GI_KIND_SCENE) read_type(reader, frame, &attributes);
-    frame->contexts =
-        frame->type != NULL ? frame->type->context : gi_kind_contexts(element->kind);
+    frame->contexts = frame->type != NULL ? frame->type->context : gi_kind_contexts(element->kind);
     gi_object_begin(reader, frame);
 }
 
@@ -480,8 +483,8 @@ static void check_blank(GiReader *reader, GiFrame *frame, const char *text, size
     /* The word is not quoted: it may be cut here by the end of a chunk. */
     GiPlace place = {.offset = XML_GetCurrentByteIndex(reader->parser) +
                                gi_window_span(&reader->window, text, i)};
-    gi_report_add(&reader->report, place, 1,
-        "text does not belong here: %s holds elements only", frame->element->name);
+    gi_report_add(&reader->report, place, 1, "text does not belong here: %s holds elements only",
+        frame->element->name);
 }
 
 void XMLCALL gi_tree_text(void *user, const XML_Char *text, int size) {
@@ -492,7 +495,6 @@ void XMLCALL gi_tree_text(void *user, const XML_Char *text, int size) {
     if (gi_kind_is_object(frame->element->kind)) {
         check_blank(reader, frame, text, (size_t)size);
     } else {
-        gi_value_append(
-            reader, text, (size_t)size, XML_GetCurrentByteIndex(reader->parser));
+        gi_value_append(reader, text, (size_t)size, XML_GetCurrentByteIndex(reader->parser));
     }
 }

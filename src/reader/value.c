@@ -88,7 +88,9 @@ void gi_value_append(GiReader *reader, const char *text, size_t size, int64_t of
 
 /* ---------------------------------------------------------------- tokens */
 
-typedef struct Token { size_t begin, end; } Token;
+typedef struct Token {
+    size_t begin, end;
+} Token;
 
 static bool next_token(const GiReader *reader, size_t *position, Token *token) {
     size_t i = *position;
@@ -185,7 +187,7 @@ static void report_count(GiReader *reader, const GiFrame *frame, int wanted) {
                     : found > wanted ? place_of(reader, frame, surplus.begin)
                                      : place_of(reader, frame, first.begin);
     int length = found == 0       ? 1 + gi_text_length(reader->tags.data + frame->tag,
-                                           strlen(reader->tags.data + frame->tag))
+                                            strlen(reader->tags.data + frame->tag))
                  : found > wanted ? token_length(reader, surplus)
                                   : token_length(reader, (Token){first.begin, last.end});
     const char *meaning = frame->element->kind == GI_KIND_INTEGER_PAIR ? ", width and height" : "";
@@ -277,7 +279,8 @@ bool gi_value_check(
         break;
     case GI_CHECK_ANGLE:
         gi_report_add(report, place, length,
-            "%s must be an angle between 0 and 180 degrees, both excluded; found %g", name, value.x);
+            "%s must be an angle between 0 and 180 degrees, both excluded; found %g", name,
+            value.x);
         break;
     case GI_CHECK_IMAGE_SIZE:
         gi_report_add(report, place, length, "%s; found %.0f x %.0f",

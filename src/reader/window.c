@@ -183,8 +183,7 @@ static int encode(uint32_t c, char *out) {
     return more + 1;
 }
 
-int gi_window_copy(
-    const GiWindow *window, int64_t offset, int count, char *buffer, size_t size) {
+int gi_window_copy(const GiWindow *window, int64_t offset, int count, char *buffer, size_t size) {
     size_t length = 0;
     int copied = 0;
     while (copied < count && length + 5 <= size) {

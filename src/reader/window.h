@@ -22,7 +22,7 @@ typedef struct GiWindow {
     GiMemory *memory;
     unsigned char *data;
     size_t size, capacity;
-    int64_t base; /* offset of data[0] */
+    int64_t base;   /* offset of data[0] */
     GiPlace start;  /* the place of data[0] */
     GiPlace cursor; /* the last place counted: the next is normally a little further on */
     GiEncoding encoding;
@@ -63,8 +63,7 @@ int64_t gi_window_span(const GiWindow *window, const char *text, size_t size);
 
 /* Copies the text of the file from offset on, up to `count` characters or the end of the line, as
  * clean UTF-8: control characters become '?'. Returns the number of characters. */
-int gi_window_copy(
-    const GiWindow *window, int64_t offset, int count, char *buffer, size_t size);
+int gi_window_copy(const GiWindow *window, int64_t offset, int count, char *buffer, size_t size);
 
 /* The line round a place, cut to about 120 characters, with "..." where it is cut; *caret is
  * where the place is in it, in characters. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Rays become points in the plane across their mean direction, with axes along the cloud's own; each
- * coordinate is replaced by its rank among 64, and the ranks' bits are interleaved (Morton order).
+ * coordinate is replaced by its rank among 64, and the rays are walked along a Hilbert curve.
  * Ranks, not lengths: behind a silhouette one far pixel would otherwise push all others into a
  * few cells. One counting sort does the rest, so the whole costs a few nanoseconds a ray. */
 #include "render/regroup.h"
@@ -71,15 +71,34 @@ static void align(GiRegroup *regroup, int count) {
     }
 }
 
-/* Spreads the bits of a rank: 0b101 becomes 0b10001. */
-static uint16_t spread(unsigned rank) {
-    unsigned bits = (rank | rank << 4) & 0x30f;
-    bits = (bits | bits << 2) & 0x333;
-    return (uint16_t)((bits | bits << 1) & 0x555);
+/* Place of a cell on the curve (Hilbert 1891): from the largest square down, the quarter that holds
+ * the cell, with the quarters turned so that the curve stays in one piece. */
+static uint16_t hilbert_place(unsigned x, unsigned y) {
+    unsigned place = 0;
+    for (unsigned side = RANKS / 2; side > 0; side /= 2) {
+        unsigned right = (x & side) != 0, up = (y & side) != 0;
+        place += side * side * ((3 * right) ^ up);
+        if (up == 0) {
+            if (right == 1) {
+                x = RANKS - 1 - x;
+                y = RANKS - 1 - y;
+            }
+            unsigned swap = x;
+            x = y;
+            y = swap;
+        }
+    }
+    return (uint16_t)place;
 }
 
-/* Adds the spread rank of every value, shifted, to its key. */
-static void rank(GiRegroup *regroup, const float *value, int count, int shift) {
+void gi_regroup_init(GiRegroup *regroup) {
+    for (unsigned x = 0; x < RANKS; x++) {
+        for (unsigned y = 0; y < RANKS; y++) regroup->curve[x * RANKS + y] = hilbert_place(x, y);
+    }
+}
+
+/* Adds the rank of every value, times a factor, to its key. */
+static void rank(GiRegroup *regroup, const float *value, int count, int factor) {
     float low = INFINITY, high = -INFINITY;
     for (int i = 0; i < count; i++) {
         low = value[i] < low ? value[i] : low;
@@ -89,14 +108,14 @@ static void rank(GiRegroup *regroup, const float *value, int count, int shift) {
     if (!(scale > 0 && scale < 1e30f)) return; /* all alike, or not numbers */
     int counts[BUCKETS] = {0};
     for (int i = 0; i < count; i++) counts[(int)((value[i] - low) * scale)]++;
-    uint16_t bits[BUCKETS];
+    uint16_t ranks[BUCKETS];
     for (int i = 0, below = 0; i < BUCKETS; i++) {
         int middle = below + counts[i] / 2; /* of a bucket, which is not split */
-        bits[i] = (uint16_t)(spread((unsigned)(middle * RANKS / count)) << shift);
+        ranks[i] = (uint16_t)(middle * RANKS / count * factor);
         below += counts[i];
     }
     for (int i = 0; i < count; i++) {
-        regroup->key[i] = (uint16_t)(regroup->key[i] | bits[(int)((value[i] - low) * scale)]);
+        regroup->key[i] = (uint16_t)(regroup->key[i] + ranks[(int)((value[i] - low) * scale)]);
     }
 }
 
@@ -115,7 +134,8 @@ void gi_regroup(GiRegroup *regroup, int count) {
     project(regroup, count);
     align(regroup, count);
     for (int i = 0; i < count; i++) regroup->key[i] = 0;
-    rank(regroup, regroup->a, count, 1);
-    rank(regroup, regroup->b, count, 0);
+    rank(regroup, regroup->a, count, RANKS);
+    rank(regroup, regroup->b, count, 1);
+    for (int i = 0; i < count; i++) regroup->key[i] = regroup->curve[regroup->key[i]];
     sort_by_key(regroup, count);
 }

@@ -14,8 +14,10 @@ typedef struct GiRegroup {
     uint16_t order[GI_REGROUP_LIMIT];                                    /* out: a permutation */
     /* private */
     float a[GI_REGROUP_LIMIT], b[GI_REGROUP_LIMIT];
-    uint16_t key[GI_REGROUP_LIMIT];
+    uint16_t key[GI_REGROUP_LIMIT], curve[64 * 64];
 } GiRegroup;
+
+void gi_regroup_init(GiRegroup *regroup);
 
 /* count is at most GI_REGROUP_LIMIT. Directions may have any length. */
 void gi_regroup(GiRegroup *regroup, int count);

@@ -34,7 +34,9 @@ struct GiTileScratch {
 };
 
 GiTileScratch *gi_tile_scratch_create(GiMemory *memory) {
-    return gi_memory_allocate_lines(memory, 1, sizeof(GiTileScratch));
+    GiTileScratch *scratch = gi_memory_allocate_lines(memory, 1, sizeof *scratch);
+    if (scratch != NULL) gi_regroup_init(&scratch->regroup);
+    return scratch;
 }
 
 void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch) {

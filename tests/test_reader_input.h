@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT
+ * Loading a scene from text in memory, with its findings kept as text. For test_reader.c. */
+#pragma once
+
+#include "test.h"
+
+#include "reader/reader.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* A source: text, then a filler repeated, then text again; so that huge files need no memory. */
+typedef struct Input {
+    const char *head, *filler, *tail;
+    size_t head_size, filler_size, tail_size, filler_count, position;
+    bool fails;
+} Input;
+
+static int64_t read_input(void *user, void *buffer, size_t size) {
+    Input *input = user;
+    char *out = buffer;
+    size_t body = input->head_size + input->filler_size * input->filler_count, done = 0;
+    if (input->fails) return -1;
+    for (; done < size; done++, input->position++) {
+        size_t p = input->position;
+        if (p < input->head_size) {
+            out[done] = input->head[p];
+        } else if (p < body) {
+            out[done] = input->filler[(p - input->head_size) % input->filler_size];
+        } else if (p < body + input->tail_size) {
+            out[done] = input->tail[p - body];
+        } else {
+            break;
+        }
+    }
+    return (int64_t)done;
+}
+
+typedef struct Loaded {
+    GiMemory memory;
+    GiScene scene;
+    GlintStatus status;
+    GlintError error;
+    char findings[20000]; /* "line:column: message\n" each */
+    char printed[60000];  /* as glint_diagnostic_format has it */
+    int count;
+    size_t peak_extra; /* bytes in use at once beyond what the scene kept */
+} Loaded;
+
+static void on_diagnostic(void *user, const GlintDiagnostic *diagnostic) {
+    Loaded *loaded = user;
+    size_t length = strlen(loaded->findings), printed = strlen(loaded->printed);
+    snprintf(loaded->findings + length, sizeof loaded->findings - length, "%lld:%lld: %s\n",
+        (long long)diagnostic->line, (long long)diagnostic->column, diagnostic->message);
+    glint_diagnostic_format(
+        diagnostic, loaded->printed + printed, sizeof loaded->printed - printed);
+    loaded->count++;
+}
+
+static Loaded loaded; /* one at a time */
+
+static Loaded *load_input(
+    Input input, size_t chunk_size, GlintDialect dialect, const GlintAllocator *allocator) {
+    memset(&loaded, 0, sizeof loaded);
+    gi_memory_init(&loaded.memory, allocator, (size_t)4 << 30);
+    if (!gi_scene_init(&loaded.scene, &loaded.memory)) {
+        loaded.status = GLINT_ERROR_MEMORY;
+        return &loaded;
+    }
+    GiReaderSource source = {.read = read_input,
+        .user = &input,
+        .name = "test.xml",
+        .total_size = -1,
+        .diagnostic = on_diagnostic,
+        .diagnostic_user = &loaded,
+        .dialect = dialect,
+        .chunk_size = chunk_size};
+    loaded.status = gi_reader_load(&loaded.scene, &source, NULL, &loaded.error);
+    loaded.peak_extra = loaded.memory.peak - loaded.memory.used;
+    return &loaded;
+}
+
+static Loaded *load_bytes(const char *bytes, size_t size, size_t chunk_size) {
+    Input input = {.head = bytes, .head_size = size};
+    return load_input(input, chunk_size, GLINT_DIALECT_AUTO, NULL);
+}
+
+static Loaded *load(const char *text) { return load_bytes(text, strlen(text), 0); }
+
+static Loaded *load_filled(const char *head, const char *filler, size_t count, const char *tail) {
+    Input input = {.head = head, .filler = filler, .tail = tail, .filler_count = count};
+    input.head_size = strlen(head);
+    input.filler_size = strlen(filler);
+    input.tail_size = strlen(tail);
+    return load_input(input, 0, GLINT_DIALECT_AUTO, NULL);
+}
+
+static void unload(void) {
+    gi_scene_reset(&loaded.scene);
+    CHECK_INT(loaded.memory.used, 0);
+}
