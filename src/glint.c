@@ -65,11 +65,12 @@ GlintStatus glint_scene_create(const GlintSceneDesc *desc, GlintScene **result, 
         return ARGUMENT(error, "this machine or build has no instruction set '%s'", desc->isa);
     }
     GiMemory memory;
-    gi_memory_init(&memory, desc->allocator, desc->memory_limit);
+    size_t limit = desc->memory_limit != 0 ? desc->memory_limit : gi_machine_memory() / 10 * 9;
+    gi_memory_init(&memory, desc->allocator, limit);
     GlintScene *scene = gi_memory_allocate(&memory, sizeof *scene);
     if (scene == NULL) return gi_error_memory(error);
     memset(scene, 0, sizeof *scene);
-    gi_memory_init(&scene->memory, desc->allocator, memory.limit);
+    gi_memory_init(&scene->memory, desc->allocator, limit);
     scene->kernel = kernel;
     scene->dialect = desc->dialect;
     scene->thread_count = desc->thread_count;

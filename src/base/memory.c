@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "base/memory.h"
 
-#include "port/machine.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,7 +17,7 @@ static void *heap_reallocate(void *user, void *pointer, size_t old_size, size_t 
 void gi_memory_init(GiMemory *memory, const GlintAllocator *allocator, size_t limit) {
     memory->allocator =
         allocator != NULL ? *allocator : (GlintAllocator){.reallocate = heap_reallocate};
-    memory->limit = limit != 0 ? limit : gi_machine_memory() / 10 * 9;
+    memory->limit = limit != 0 ? limit : SIZE_MAX;
     atomic_init(&memory->used, 0);
     atomic_init(&memory->peak, 0);
 }

@@ -13,7 +13,7 @@ typedef struct GiMemory {
     _Atomic size_t used, peak;
 } GiMemory;
 
-/* allocator null: the C library's. limit 0: nine tenths of the machine's memory. */
+/* allocator null: the C library's. limit 0: none. */
 void gi_memory_init(GiMemory *memory, const GlintAllocator *allocator, size_t limit);
 
 /* Like realloc, but the old size is told and new_size 0 frees. Null when there is no more memory;
