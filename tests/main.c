@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * Runs all tests, or those whose name contains one of the arguments.
- *   glint-tests [--source DIR] [--list] [NAME...] */
+ *   glint-tests [--source DIR] [--list] [--update-golden] [NAME...]
+ * --update-golden writes tests/golden/hashes.txt instead of comparing with it. */
 #define _XOPEN_SOURCE 700
+#include "scenes.h"
 #include "test.h"
 
 #include <stdarg.h>
@@ -22,6 +24,7 @@ static const struct { const char *room; const GiTest *tests; } rooms[] = {
 
 static const char *source_dir = ".";
 static char scratch_dir[] = "/tmp/glint-tests-XXXXXX";
+static bool update_golden;
 static int failure_count;
 static const char *skip_reason;
 
@@ -44,6 +47,8 @@ void test_check_text(
         test_fail(file, line, "%s is \"%s\", not \"%s\"", what, actual ? actual : "(null)", expected);
     }
 }
+
+bool test_update_golden(void) { return update_golden; }
 
 const char *test_source_dir(void) { return source_dir; }
 
@@ -69,6 +74,7 @@ int main(int argc, char **argv) {
     for (; first < argc && strncmp(argv[first], "--", 2) == 0; first++) {
         if (strcmp(argv[first], "--source") == 0 && first + 1 < argc) source_dir = argv[++first];
         if (strcmp(argv[first], "--list") == 0) list = true;
+        if (strcmp(argv[first], "--update-golden") == 0) update_golden = true;
     }
     setvbuf(stdout, NULL, _IOLBF, 0);
     if (mkdtemp(scratch_dir) == NULL) {

@@ -20,6 +20,7 @@ typedef struct Hit {
 /* What a light will add to a hit unless something is in between. */
 typedef struct Pending {
     uint32_t hit;
+    double distance; /* to the light */
     GiVec light;
 } Pending;
 
@@ -28,6 +29,7 @@ struct GiTileScratch {
     GiRegroup regroup;
     Hit hits[PIXEL_COUNT];
     Pending pending[PIXEL_COUNT];
+    double across[GI_TILE_SIDE], up[GI_TILE_SIDE]; /* window coordinates of columns and rows */
     GiVec color[PIXEL_COUNT]; /* of the sample being drawn */
     GiVec sum[PIXEL_COUNT];   /* of the samples before */
     int hit_count;
@@ -83,8 +85,8 @@ static void trace_apart(const GiWorld *world, GiBundle *bundle) {
 }
 
 /* One bundle: the pixels of a block, packet by packet. */
-static void trace_block(const GiWorld *world, const GiRenderArea *area, const Extent *extent,
-    int block_x, int block_y, double offset_x, double offset_y, GiTileScratch *scratch) {
+static void trace_block(const GiWorld *world, const Extent *extent, int block_x, int block_y,
+    GiTileScratch *scratch) {
     GiBundle *bundle = &scratch->bundle;
     uint32_t pixels[GI_BUNDLE_SIZE];
     int count = 0;
@@ -94,11 +96,8 @@ static void trace_block(const GiWorld *world, const GiRenderArea *area, const Ex
         for (int i = 0; i < GI_PACKET_SIZE; i++) {
             int x = packet_x + i % PACKET_SIDE, y = packet_y + i / PACKET_SIDE;
             if (x >= extent->width || y >= extent->height) continue;
-            /* Rows of the picture run down, b runs up. */
-            int row = area->height - 1 - (extent->y + y);
             GiVec origin, direction;
-            gi_view_ray(&world->view, (extent->x + x + offset_x) / area->width,
-                (row + offset_y) / area->height, &origin, &direction);
+            gi_view_ray(&world->view, scratch->across[x], scratch->up[y], &origin, &direction);
             bundle->ox[count] = origin.x, bundle->oy[count] = origin.y, bundle->oz[count] = origin.z;
             bundle->dx[count] = direction.x, bundle->dy[count] = direction.y;
             bundle->dz[count] = direction.z;
@@ -150,7 +149,7 @@ static void trace_pending(const GiWorld *world, const GiLight *light, int count,
             bundle->ox[i] = hit->point.x, bundle->oy[i] = hit->point.y, bundle->oz[i] = hit->point.z;
             bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
             double away = rules->shadow_distance > 0 ? rules->shadow_distance : hit->error;
-            bundle->t_min[i] = away / gi_length(d);
+            bundle->t_min[i] = away / scratch->pending[at].distance;
             bundle->t_max[i] = 1;
             GiShapeRef own = gi_shape_unplaced(&world->shapes, (GiShapeRef){hit->shape});
             bool skip = !rules->sphere_shadows_itself && gi_shape_kind(own) == GI_SHAPE_SPHERE;
@@ -182,12 +181,13 @@ static void add_light(
         GiVec d = gi_sub(light->position, hit->point);
         double square = gi_dot(d, d);
         if (!(square > 0)) continue; /* the light is on the surface */
+        double distance = sqrt(square);
         GiVec factor = gi_shade_reflect(
-            shader, world->rules, hit->normal, hit->toward_viewer, gi_scale(d, 1 / sqrt(square)));
+            shader, world->rules, hit->normal, hit->toward_viewer, gi_scale(d, 1 / distance));
         GiVec strength = gi_light_strength(light, world->rules, square);
         GiVec adds = gi_multiply(strength, factor);
         if (gi_vec_is_zero(adds)) continue;
-        scratch->pending[count++] = (Pending){(uint32_t)i, adds};
+        scratch->pending[count++] = (Pending){(uint32_t)i, distance, adds};
     }
     if (count > 0) trace_pending(world, light, count, scratch, control);
     counts->shadow_rays += (uint64_t)count;
@@ -200,10 +200,17 @@ static void draw_sample(const GiWorld *world, const GiRenderArea *area, const Ex
     double offset_x, double offset_y, GiTileScratch *scratch, GiRenderCounts *counts,
     const GiTileControl *control) {
     scratch->hit_count = 0;
+    for (int x = 0; x < extent->width; x++) {
+        scratch->across[x] = (extent->x + x + offset_x) / area->width;
+    }
+    for (int y = 0; y < extent->height; y++) {
+        /* Rows of the picture run down, the window's coordinate runs up. */
+        scratch->up[y] = (area->height - 1 - (extent->y + y) + offset_y) / area->height;
+    }
     for (int y = 0; y < extent->height; y += BLOCK_SIDE) {
         if (stopped(control)) return;
         for (int x = 0; x < extent->width; x += BLOCK_SIDE) {
-            trace_block(world, area, extent, x, y, offset_x, offset_y, scratch);
+            trace_block(world, extent, x, y, scratch);
         }
     }
     counts->camera_rays += (uint64_t)extent->width * (uint64_t)extent->height;

@@ -2,6 +2,7 @@
 #include "render/world.h"
 
 #include "base/error.h"
+#include "render/reorder.h"
 
 #include <string.h>
 
@@ -135,6 +136,8 @@ GlintStatus gi_world_commit(GiWorld *world, GiScene *scene, const GiKernel *kern
     }
     gi_array_free(scene->memory, &world->refs);
     gi_array_free(scene->memory, &scene->roots);
+    gi_reorder(scene, &world->store, world->placements.data, world->placements.count);
+    point_shapes(world, scene);
     world->trace = (GiTrace){&world->store.tree, &world->shapes};
     world->view = gi_view_of(&scene->camera);
     return GLINT_OK;

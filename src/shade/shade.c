@@ -3,6 +3,8 @@
 
 #include "math/elementary.h"
 
+static inline double positive(double x) { return x > 0 ? x : 0; }
+
 static const GiVec black = {0, 0, 0};
 
 GiVec gi_shade_normal_color(GiVec normal) {
@@ -14,7 +16,7 @@ static double diffuse_factor(const GiRules *rules) {
 }
 
 static GiVec lambertian(const GiShader *shader, const GiRules *rules, double nl) {
-    return gi_scale(shader->diffuse, diffuse_factor(rules) * fmax(0, nl));
+    return gi_scale(shader->diffuse, diffuse_factor(rules) * positive(nl));
 }
 
 /* Blinn (1977). */
@@ -22,8 +24,8 @@ static GiVec phong(const GiShader *shader, const GiRules *rules, GiVec n, GiVec 
     double nl = gi_dot(n, l);
     if (rules->highlight_needs_light && nl <= 0) return black;
     GiVec h = gi_normalize(gi_add(l, v));
-    double highlight = gi_pow(fmax(0, gi_dot(n, h)), shader->exponent);
-    double cosine = fmax(0, nl);
+    double highlight = gi_pow(positive(gi_dot(n, h)), shader->exponent);
+    double cosine = positive(nl);
     GiVec diffuse = gi_scale(shader->diffuse, diffuse_factor(rules) * cosine);
     GiVec specular = gi_scale(shader->specular, rules->phong_cosine ? highlight * cosine : highlight);
     return gi_add(diffuse, specular);

@@ -81,7 +81,9 @@ GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref) {
 
 /* ---------------------------------------------------------------- point and normal */
 
-static double largest(GiVec v) { return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z))); }
+static double largest(GiVec v) {
+    return gi_hit_maximum(fabs(v.x), gi_hit_maximum(fabs(v.y), fabs(v.z)));
+}
 
 static GiSurfacePoint sphere_point(const GiSphere *sphere, GiVec p) {
     GiVec normal = gi_normalize(gi_sub(p, sphere->center));
@@ -142,13 +144,16 @@ static GiSurfacePoint flat_point(GiVec point, GiVec normal, GiVec p) {
 }
 
 /* error: the size of the numbers beside the point's own. */
-static GiSurfacePoint unplaced_point(const GiShapes *shapes, GiShapeRef ref, const gi_hit_Ray *ray,
-    GiVec p, double t, bool second_nappe_geometric) {
+static GiSurfacePoint unplaced_point(const GiShapes *shapes, GiShapeRef ref, GiVec origin,
+    GiVec direction, double t, bool second_nappe_geometric) {
     uint32_t i = gi_shape_index(ref);
+    GiVec p = gi_along(origin, direction, t);
+    if (gi_shape_kind(ref) == GI_SHAPE_SPHERE) return sphere_point(&shapes->spheres[i], p);
+    gi_hit_Ray ray =
+        gi_hit_ray(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z);
     switch (gi_shape_kind(ref)) {
-    case GI_SHAPE_SPHERE: return sphere_point(&shapes->spheres[i], p);
-    case GI_SHAPE_BOX: return box_point(&shapes->boxes[i], ray, p, t);
-    case GI_SHAPE_CONE: return cone_point(&shapes->cones[i], ray, p, t, second_nappe_geometric);
+    case GI_SHAPE_BOX: return box_point(&shapes->boxes[i], &ray, p, t);
+    case GI_SHAPE_CONE: return cone_point(&shapes->cones[i], &ray, p, t, second_nappe_geometric);
     case GI_SHAPE_DISC: return flat_point(shapes->discs[i].center, shapes->discs[i].normal, p);
     default: return flat_point(shapes->planes[i].point, shapes->planes[i].normal, p);
     }
@@ -169,20 +174,18 @@ static double largest_offset(const GiAffine *a) {
 
 GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref, GiVec origin, GiVec direction,
     double t, bool second_nappe_geometric) {
-    gi_hit_Ray ray =
-        gi_hit_ray(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z);
     GiSurfacePoint at;
     if (gi_shape_kind(ref) != GI_SHAPE_PLACED) {
-        GiVec p = gi_along(origin, direction, t);
-        at = unplaced_point(shapes, ref, &ray, p, t, second_nappe_geometric);
+        at = unplaced_point(shapes, ref, origin, direction, t, second_nappe_geometric);
         at.error = (at.error + largest(at.point)) * GI_SURFACE_ERROR;
         return at;
     }
     const GiPlacement *placement = &shapes->placements[gi_shape_index(ref)];
     const GiTransform *transform = &shapes->transforms[placement->transform];
-    ray = gi_hit_to_object(&ray, &transform->to_object);
-    GiVec p = gi_along(gi_vec(ray.ox, ray.oy, ray.oz), gi_vec(ray.dx, ray.dy, ray.dz), t);
-    at = unplaced_point(shapes, placement->shape, &ray, p, t, second_nappe_geometric);
+    /* The same operations as gi_hit_to_object, so that t fits to the bit. */
+    origin = gi_affine_point(&transform->to_object, origin);
+    direction = gi_affine_vector(&transform->to_object, direction);
+    at = unplaced_point(shapes, placement->shape, origin, direction, t, second_nappe_geometric);
     /* Errors in object space are stretched by the transform, those of the way there shrunk and
      * stretched again: the product of the two norms bounds both. */
     double error = (at.error + largest(at.point)) * norm(&transform->to_world);

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: MIT
+ * Samples for POV-Ray.
+ *
+ * Its camera is left-handed by default, but has the handedness of the vectors that it is given:
+ * right and up are spelled out here. Colours are linear with assumed_gamma 1 in the scene and
+ * File_Gamma=1.0 on the command line. specular with roughness 1 / e is Blinn's highlight with the
+ * exponent e. */
+#include "samples/write.h"
+
+#include <math.h>
+
+static void cross(const double a[3], const double b[3], double unit[3]) {
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        unit[i] = a[j] * b[k] - a[k] * b[j];
+    }
+    double length = sqrt(unit[0] * unit[0] + unit[1] * unit[1] + unit[2] * unit[2]);
+    for (int i = 0; i < 3; i++) unit[i] /= length;
+}
+
+static void write_scaled(FILE *file, const char *before, const double v[3], double factor) {
+    fprintf(file, "%s<%.12g,%.12g,%.12g>", before, v[0] * factor, v[1] * factor, v[2] * factor);
+}
+
+static void write_camera(const Sample *sample, FILE *file) {
+    GlintCameraDesc camera = sample_camera(sample);
+    const double *d = camera.view_direction;
+    double right[3], up[3], length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    cross(d, camera.view_up, right);
+    cross(right, d, up);
+    write_scaled(file, "camera { perspective location ", camera.view_point, 1);
+    write_scaled(file, " direction ", d, camera.projection_distance / length);
+    write_scaled(file, " right ", right, camera.view_width);
+    write_scaled(file, " up ", up, camera.view_height);
+    fputs(" }\n", file);
+}
+
+static void write_head(const Sample *sample, FILE *file) {
+    fputs("#version 3.7;\n"
+          "global_settings { assumed_gamma 1.0 max_trace_level 1 }\n"
+          "background { color rgb 0 }\n",
+        file);
+    write_camera(sample, file);
+    for (int i = 0; i < sample_light_count(sample); i++) {
+        GlintLightDesc light = sample_light(sample, i);
+        write_scaled(file, "light_source { ", light.position, 1);
+        write_scaled(file, " color rgb ", light.intensity, 1);
+        fputs(" }\n", file);
+    }
+    for (int i = 0; i < SAMPLE_SHADER_COUNT; i++) {
+        GlintShaderDesc shader = sample_shader(i);
+        fprintf(file, "#declare %s = texture { pigment { color rgb ", sample_shader_name(i));
+        write_scaled(file, "", shader.diffuse_color, 1);
+        fputs(" } finish { ambient 0 diffuse 1", file);
+        if (shader.type == GLINT_SHADER_PHONG) {
+            fprintf(file, " specular %.9g roughness %.12g", shader.specular_color[0],
+                1 / shader.exponent);
+        }
+        fputs(" } }\n", file);
+    }
+}
+
+/* The radius of a cone at height z. The end at the apex must not get below zero by rounding. */
+static double cone_radius(const GlintSurfaceDesc *cone, double z) {
+    double apex = cone->tip_z - cone->center[2];
+    return fmax(0, cone->radius * (cone->tip_z - z) / apex);
+}
+
+static void write_surface(const SampleSurface *surface, FILE *file) {
+    const GlintSurfaceDesc *desc = &surface->desc;
+    const double *c = desc->center;
+    double low = c[2] - desc->height / 2, high = c[2] + desc->height / 2;
+    switch (desc->type) {
+    case GLINT_SURFACE_BOX:
+        fprintf(file, "box { <%.9g,%.9g,%.9g>,<%.9g,%.9g,%.9g>", desc->point_a[0], desc->point_a[1],
+            desc->point_a[2], desc->point_b[0], desc->point_b[1], desc->point_b[2]);
+        break;
+    case GLINT_SURFACE_CYLINDER:
+        fprintf(file, "cylinder { <%.9g,%.9g,%.9g>,<%.9g,%.9g,%.9g>,%.9g", c[0], c[1], low, c[0],
+            c[1], high, desc->radius);
+        break;
+    case GLINT_SURFACE_CONE:
+        fprintf(file, "cone { <%.9g,%.9g,%.9g>,%.12g,<%.9g,%.9g,%.9g>,%.12g", c[0], c[1], low,
+            cone_radius(desc, low), c[0], c[1], high, cone_radius(desc, high));
+        break;
+    default: fprintf(file, "sphere { <%.9g,%.9g,%.9g>,%.9g", c[0], c[1], c[2], desc->radius); break;
+    }
+    fprintf(file, " texture { %s } }\n", sample_shader_name(surface->shader_index));
+}
+
+void sample_write_povray(const Sample *sample, FILE *file) {
+    write_head(sample, file);
+    uint64_t count = sample_surface_count(sample);
+    for (uint64_t i = 0; i < count; i++) {
+        SampleSurface surface = sample_surface(sample, i);
+        write_surface(&surface, file);
+    }
+}

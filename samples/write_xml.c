@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT
+ * Samples in Glint's own format. */
+#include "samples/write.h"
+
+static void write_vector(FILE *file, const char *name, const double v[3]) {
+    fprintf(file, "<%s>%.9g %.9g %.9g</%s>", name, v[0], v[1], v[2], name);
+}
+
+static void write_real(FILE *file, const char *name, double value) {
+    fprintf(file, "<%s>%.9g</%s>", name, value, name);
+}
+
+static void write_head(const Sample *sample, FILE *file) {
+    GlintDialect dialect = sample_dialect(sample);
+    if (dialect == GLINT_DIALECT_GLINT) {
+        fprintf(file, "<scene dialect=\"%s\">\n", glint_dialect_name(dialect));
+    } else {
+        fputs("<scene>\n", file); /* known by its content */
+    }
+    GlintCameraDesc camera = sample_camera(sample);
+    fputs("<camera>\n", file);
+    write_vector(file, "viewPoint", camera.view_point);
+    write_vector(file, "viewDir", camera.view_direction);
+    write_vector(file, "viewUp", camera.view_up);
+    write_vector(file, "projNormal", camera.projection_normal);
+    write_real(file, "projDistance", camera.projection_distance);
+    write_real(file, "viewWidth", camera.view_width);
+    write_real(file, "viewHeight", camera.view_height);
+    fprintf(file, "\n</camera>\n<image>%d %d</image>\n", sample->width, sample->height);
+    for (int i = 0; i < sample_light_count(sample); i++) {
+        GlintLightDesc light = sample_light(sample, i);
+        fputs("<light>", file);
+        write_vector(file, "position", light.position);
+        write_vector(file, "intensity", light.intensity);
+        fputs("</light>\n", file);
+    }
+    for (int i = 0; i < SAMPLE_SHADER_COUNT; i++) {
+        GlintShaderDesc shader = sample_shader(i);
+        bool phong = shader.type == GLINT_SHADER_PHONG;
+        fprintf(file, "<shader name=\"%s\" type=\"%s\">", sample_shader_name(i),
+            phong ? "Phong" : "Lambertian");
+        write_vector(file, "diffuseColor", shader.diffuse_color);
+        if (phong) {
+            write_vector(file, "specularColor", shader.specular_color);
+            write_real(file, "exponent", shader.exponent);
+        }
+        fputs("</shader>\n", file);
+    }
+}
+
+static void write_surface(const SampleSurface *surface, FILE *file) {
+    static const char *const types[] = {
+        [GLINT_SURFACE_SPHERE] = "Sphere",
+        [GLINT_SURFACE_BOX] = "Box",
+        [GLINT_SURFACE_CYLINDER] = "Cylinder",
+        [GLINT_SURFACE_CONE] = "Cone",
+    };
+    const GlintSurfaceDesc *desc = &surface->desc;
+    fprintf(file, "<surface type=\"%s\"><shader ref=\"%s\"/>", types[desc->type],
+        sample_shader_name(surface->shader_index));
+    if (desc->type == GLINT_SURFACE_BOX) {
+        write_vector(file, "minPt", desc->point_a);
+        write_vector(file, "maxPt", desc->point_b);
+    } else {
+        write_vector(file, "center", desc->center);
+        write_real(file, "radius", desc->radius);
+        if (desc->type != GLINT_SURFACE_SPHERE) write_real(file, "height", desc->height);
+        if (desc->type == GLINT_SURFACE_CONE) write_real(file, "tipz", desc->tip_z);
+    }
+    fputs("</surface>\n", file);
+}
+
+void sample_write_xml(const Sample *sample, FILE *file) {
+    write_head(sample, file);
+    int64_t group_index = -1;
+    uint64_t count = sample_surface_count(sample);
+    for (uint64_t i = 0; i < count; i++) {
+        SampleSurface surface = sample_surface(sample, i);
+        if (surface.group_index != group_index) {
+            if (group_index >= 0) fputs("</surface>\n", file);
+            group_index = surface.group_index;
+            SampleGroup group = sample_group(sample, (uint64_t)group_index);
+            fputs("<surface type=\"Group\">", file);
+            write_vector(file, "translate", group.translate);
+            write_vector(file, "rotate", group.rotate);
+            write_vector(file, "scale", group.scale);
+            fputs("\n", file);
+        }
+        write_surface(&surface, file);
+    }
+    if (group_index >= 0) fputs("</surface>\n", file);
+    fputs("</scene>\n", file);
+}

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT */
+#include "render/reorder.h"
+
+#include <string.h>
+
+/* Every ref of the tree's blocks that names a shape of this kind directly. */
+typedef void (*VisitFn)(void *context, GiShapeRef *ref);
+
+static void visit_blocks(GiTreeStore *store, GiShapeKind kind, VisitFn visit, void *context) {
+    for (uint32_t i = 0; i < store->tree.sphere_block_count && kind == GI_SHAPE_SPHERE; i++) {
+        for (int lane = 0; lane < GI_TREE_WIDTH; lane++) {
+            GiShapeRef *ref = &store->sphere_blocks[i].shape[lane];
+            if (ref->bits != GI_SHAPE_NONE) visit(context, ref);
+        }
+    }
+    for (uint32_t i = 0; i < store->tree.box_block_count; i++) {
+        for (int lane = 0; lane < GI_TREE_WIDTH; lane++) {
+            GiShapeRef *ref = &store->box_blocks[i].shape[lane];
+            if (ref->bits != GI_SHAPE_NONE && gi_shape_kind(*ref) == kind) visit(context, ref);
+        }
+    }
+}
+
+typedef struct Order {
+    GiShapeKind kind;
+    uint32_t *place; /* new index of each shape, or GI_SHAPE_NONE */
+    uint32_t next;
+} Order;
+
+/* Gives the shape the next place when it has none, and the ref its shape's place. */
+static void take_place(void *context, GiShapeRef *ref) {
+    Order *order = context;
+    uint32_t *place = &order->place[gi_shape_index(*ref)];
+    if (*place == GI_SHAPE_NONE) *place = order->next++;
+    *ref = gi_shape_ref(order->kind, *place);
+}
+
+/* data: the array of one kind, of `size` bytes a shape; its capacity is capacity. */
+static void reorder_kind(GiScene *scene, GiTreeStore *store, GiPlacement *placements,
+    size_t placement_count, GiShapeKind kind, void **data, size_t capacity, size_t size) {
+    GiMemory *memory = scene->memory;
+    GiShapeInfos *infos = &scene->info[kind];
+    size_t count = infos->count;
+    if (count < 2) return;
+    /* All memory first, so that a failure leaves everything as it was. */
+    Order order = {.kind = kind};
+    size_t place_size = count * sizeof *order.place;
+    order.place = gi_memory_allocate(memory, place_size);
+    if (order.place == NULL) return;
+    memset(order.place, 0xff, place_size);
+    void *shapes = gi_memory_allocate(memory, capacity * size);
+    GiShapeInfo *info = gi_memory_allocate(memory, infos->capacity * sizeof *info);
+    if (shapes != NULL && info != NULL) {
+        visit_blocks(store, kind, take_place, &order);
+        for (size_t i = 0; i < count; i++) {
+            if (order.place[i] == GI_SHAPE_NONE) order.place[i] = order.next++;
+        }
+        for (size_t i = 0; i < count; i++) {
+            memcpy((char *)shapes + order.place[i] * size, (const char *)*data + i * size, size);
+            info[order.place[i]] = infos->data[i];
+        }
+        for (size_t i = 0; i < placement_count; i++) {
+            GiShapeRef *ref = &placements[i].shape;
+            if (gi_shape_kind(*ref) != kind) continue;
+            *ref = gi_shape_ref(kind, order.place[gi_shape_index(*ref)]);
+        }
+        void *old = *data;
+        *data = shapes;
+        shapes = old;
+        GiShapeInfo *old_info = infos->data;
+        infos->data = info;
+        info = old_info;
+    }
+    gi_memory_free(memory, shapes, capacity * size);
+    gi_memory_free(memory, info, infos->capacity * sizeof *info);
+    gi_memory_free(memory, order.place, place_size);
+}
+
+#define REORDER(kind, array)                                                                       \
+    reorder_kind(scene, store, placements, placement_count, kind, (void **)&(array).data,          \
+        (array).capacity, sizeof *(array).data)
+
+void gi_reorder(
+    GiScene *scene, GiTreeStore *store, GiPlacement *placements, size_t placement_count) {
+    REORDER(GI_SHAPE_SPHERE, scene->spheres);
+    REORDER(GI_SHAPE_BOX, scene->boxes);
+    REORDER(GI_SHAPE_CONE, scene->cones);
+    REORDER(GI_SHAPE_DISC, scene->discs);
+}
