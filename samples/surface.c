@@ -39,7 +39,9 @@ static double uniform(Random *random, double low, double high) {
     return low + (high - low) * ((double)(next(random) >> 11) * 0x1p-53);
 }
 
-static int below(Random *random, int count) { return (int)(next(random) >> 32) % count; }
+static int below(Random *random, int count) {
+    return (int)((next(random) >> 32) % (uint64_t)count);
+}
 
 static double millionth(double value) { return floor(value * 1e6 + 0.5) / 1e6; }
 

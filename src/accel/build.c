@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * Top down. A node's items are split at the best of 3 x 15 planes between 16 bins of their centres.
+ * Top down. A node's items are split at the best of 3 x 15 planes (fewer for few items) between 16 bins of their centres.
  * Large subtrees become tasks for other workers; below TASK_SIZE a worker finishes alone with a
  * stack of its own, always putting off the larger half, so that the stack stays short. */
 #include "accel/build.h"
 
+#include "math/four.h"
 #include "sched/tasks.h"
 
 #include <float.h>
@@ -12,6 +13,8 @@
 
 enum {
     BIN_COUNT = 16,
+    FEW_BINS = 8, /* for few items the bins cost more than the items do */
+    FEW_ITEMS = 64,
     TASK_SIZE = 4096,
     SAH_DEPTH_LIMIT = 60, /* deeper, halves are of equal size: the depth stays below 96 */
     STACK_SIZE = 64
@@ -32,38 +35,42 @@ typedef struct Build {
     const GlintMonitor *monitor;
 } Build;
 
-typedef struct Bounds { float low[3], high[3]; } Bounds;
+/* A box; the fourth lane holds nothing of use. */
+typedef struct Bounds { GiFour low, high; } Bounds;
 
-static const Bounds empty_bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+static inline Bounds empty_bounds(void) {
+    return (Bounds){gi_four(INFINITY), gi_four(-INFINITY)};
+}
 
-static inline float minimum(float a, float b) { return a < b ? a : b; }
-static inline float maximum(float a, float b) { return a > b ? a : b; }
+static inline void grow(Bounds *bounds, GiFour low, GiFour high) {
+    bounds->low = gi_four_min(bounds->low, low);
+    bounds->high = gi_four_max(bounds->high, high);
+}
 
-static inline void grow(Bounds *bounds, const float low[3], const float high[3]) {
-    for (int axis = 0; axis < 3; axis++) {
-        bounds->low[axis] = minimum(bounds->low[axis], low[axis]);
-        bounds->high[axis] = maximum(bounds->high[axis], high[axis]);
-    }
+static inline float area_of(const Bounds *bounds) {
+    float low[4], high[4];
+    gi_four_store(low, bounds->low);
+    gi_four_store(high, bounds->high);
+    return gi_build_area(low, high);
 }
 
 /* Twice the centre; the factor does not matter to the bins. */
-static inline float center_of(const GiBuildItem *item, int axis) {
-    return item->low[axis] + item->high[axis];
+static inline GiFour center_of(const GiBuildItem *item) {
+    return gi_four_add(gi_four_load(item->low), gi_four_load(item->high));
 }
 
 static void bound_items(const GiBuildItem *items, size_t count, Bounds *bounds, Bounds *centers) {
-    *bounds = *centers = empty_bounds;
+    Bounds all = empty_bounds(), middle = empty_bounds();
     for (size_t i = 0; i < count; i++) {
-        grow(bounds, items[i].low, items[i].high);
-        float center[3] = {
-            center_of(&items[i], 0), center_of(&items[i], 1), center_of(&items[i], 2)};
-        grow(centers, center, center);
+        GiFour center = center_of(&items[i]);
+        grow(&all, gi_four_load(items[i].low), gi_four_load(items[i].high));
+        grow(&middle, center, center);
     }
+    *bounds = all;
+    *centers = middle;
 }
 
 /* ---------------------------------------------------------------- the split */
-
-typedef struct Bin { Bounds bounds; uint32_t count; } Bin;
 
 typedef struct Split {
     int axis; /* -1: none */
@@ -72,21 +79,31 @@ typedef struct Split {
 } Split;
 
 /* Maps centres to bins: bin = (center - low) * scale. */
-typedef struct Binning { float low[3], scale[3]; } Binning;
+typedef struct Binning {
+    GiFour low, scale;
+    bool flat[3]; /* all centres have the same coordinate */
+    int count;
+} Binning;
 
-static Binning binning_of(const Bounds *centers) {
-    Binning binning;
+static Binning binning_of(const Bounds *centers, size_t item_count) {
+    float low[4], high[4], scale[4] = {0};
+    gi_four_store(low, centers->low);
+    gi_four_store(high, centers->high);
+    Binning binning = {.count = item_count <= FEW_ITEMS ? FEW_BINS : BIN_COUNT};
     for (int axis = 0; axis < 3; axis++) {
-        float extent = centers->high[axis] - centers->low[axis];
-        binning.low[axis] = centers->low[axis];
+        float extent = high[axis] - low[axis];
+        binning.flat[axis] = !(extent > FLT_MIN * 64);
         /* A little less than the number of bins, so that the last centre falls into the last. */
-        binning.scale[axis] = extent > FLT_MIN * 64 ? BIN_COUNT * 0.9999f / extent : 0;
+        scale[axis] = binning.flat[axis] ? 0 : (float)binning.count * 0.9999f / extent;
     }
+    binning.low = centers->low;
+    binning.scale = gi_four_load(scale);
     return binning;
 }
 
-static inline int bin_of(const Binning *binning, const GiBuildItem *item, int axis) {
-    return (int)((center_of(item, axis) - binning->low[axis]) * binning->scale[axis]);
+static inline void bins_of(const Binning *binning, const GiBuildItem *item, int32_t bins[4]) {
+    GiFour place = gi_four_sub(center_of(item), binning->low);
+    gi_four_to_int(gi_four_multiply(place, binning->scale), bins);
 }
 
 /* What `count` items cost a ray that enters their box: the tests of blocks of eight, and for few
@@ -97,48 +114,55 @@ static inline float cost_of(uint32_t count) {
 }
 
 static Split find_split(const GiBuildItem *items, size_t count, const Binning *binning) {
-    Bin bins[3][BIN_COUNT];
+    Bounds bins[3][BIN_COUNT];
+    uint32_t counts[3][BIN_COUNT] = {{0}};
     for (int axis = 0; axis < 3; axis++) {
-        for (int i = 0; i < BIN_COUNT; i++) bins[axis][i] = (Bin){empty_bounds, 0};
+        for (int i = 0; i < binning->count; i++) bins[axis][i] = empty_bounds();
     }
     for (size_t i = 0; i < count; i++) {
+        int32_t bin[4];
+        bins_of(binning, &items[i], bin);
+        GiFour low = gi_four_load(items[i].low), high = gi_four_load(items[i].high);
         for (int axis = 0; axis < 3; axis++) {
-            Bin *bin = &bins[axis][bin_of(binning, &items[i], axis)];
-            grow(&bin->bounds, items[i].low, items[i].high);
-            bin->count++;
+            grow(&bins[axis][bin[axis]], low, high);
+            counts[axis][bin[axis]]++;
         }
     }
     Split best = {-1, 0, FLT_MAX};
     for (int axis = 0; axis < 3; axis++) {
-        if (binning->scale[axis] == 0) continue;
+        if (binning->flat[axis]) continue;
         float right_cost[BIN_COUNT];
-        Bounds bounds = empty_bounds;
+        Bounds bounds = empty_bounds();
         uint32_t below = 0;
-        for (int i = BIN_COUNT - 1; i > 0; i--) {
-            grow(&bounds, bins[axis][i].bounds.low, bins[axis][i].bounds.high);
-            below += bins[axis][i].count;
-            right_cost[i] =
-                below == 0 ? 0 : gi_build_area(bounds.low, bounds.high) * cost_of(below);
+        for (int i = binning->count - 1; i > 0; i--) {
+            grow(&bounds, bins[axis][i].low, bins[axis][i].high);
+            below += counts[axis][i];
+            right_cost[i] = below == 0 ? 0 : area_of(&bounds) * cost_of(below);
         }
-        bounds = empty_bounds;
+        bounds = empty_bounds();
         below = 0;
-        for (int i = 1; i < BIN_COUNT; i++) {
-            grow(&bounds, bins[axis][i - 1].bounds.low, bins[axis][i - 1].bounds.high);
-            below += bins[axis][i - 1].count;
+        for (int i = 1; i < binning->count; i++) {
+            grow(&bounds, bins[axis][i - 1].low, bins[axis][i - 1].high);
+            below += counts[axis][i - 1];
             if (below == 0 || below == count) continue;
-            float cost =
-                gi_build_area(bounds.low, bounds.high) * cost_of(below) + right_cost[i];
+            float cost = area_of(&bounds) * cost_of(below) + right_cost[i];
             if (cost < best.cost) best = (Split){axis, i, cost};
         }
     }
     return best;
 }
 
+static inline bool goes_left(const GiBuildItem *item, const Binning *binning, Split split) {
+    int32_t bins[4];
+    bins_of(binning, item, bins);
+    return bins[split.axis] < split.bin;
+}
+
 static size_t partition(GiBuildItem *items, size_t count, const Binning *binning, Split split) {
     size_t left = 0, right = count;
     for (;;) {
-        while (left < right && bin_of(binning, &items[left], split.axis) < split.bin) left++;
-        while (left < right && bin_of(binning, &items[right - 1], split.axis) >= split.bin) right--;
+        while (left < right && goes_left(&items[left], binning, split)) left++;
+        while (left < right && !goes_left(&items[right - 1], binning, split)) right--;
         if (left >= right) return left;
         GiBuildItem swap = items[left];
         items[left] = items[right - 1];
@@ -153,11 +177,11 @@ static bool split_range(Build *build, Range range, Range *left, Range *right) {
     Bounds bounds, centers;
     bound_items(items, count, &bounds, &centers);
     GiBuildNode *node = &build->nodes[range.node];
-    memcpy(node->low, bounds.low, sizeof node->low);
-    memcpy(node->high, bounds.high, sizeof node->high);
+    gi_four_store(node->low, bounds.low);
+    gi_four_store(node->high, bounds.high);
     size_t middle = 0;
     if (count > GI_BUILD_LEAF_SIZE && range.depth < SAH_DEPTH_LIMIT) {
-        Binning binning = binning_of(&centers);
+        Binning binning = binning_of(&centers, count);
         Split split = find_split(items, count, &binning);
         if (split.axis >= 0) middle = partition(items, count, &binning, split);
     }

@@ -6,24 +6,30 @@
 #include "sched/pool.h"
 
 #include <stdint.h>
+#include <string.h>
 
-/* One thing to be put into the tree. */
-typedef struct GiBuildItem {
-    float low[3];
+/* One thing to be put into the tree: its box, and in the fourth lanes its id (bits of a uint32_t)
+ * and nothing. */
+typedef struct GiBuildItem { float low[4], high[4]; } GiBuildItem;
+
+static inline uint32_t gi_build_id(const GiBuildItem *item) {
     uint32_t id;
-    float high[3];
-    uint32_t unused;
-} GiBuildItem;
+    memcpy(&id, &item->low[3], sizeof id);
+    return id;
+}
+
+static inline void gi_build_set_id(GiBuildItem *item, uint32_t id) {
+    memcpy(&item->low[3], &id, sizeof id);
+    item->high[3] = 0;
+}
 
 enum { GI_BUILD_LEAF_SIZE = 8 };
 
 /* Inner: children are nodes first and first + 1, count 0. Leaf: items first .. first + count - 1 of
  * the permuted array. */
 typedef struct GiBuildNode {
-    float low[3];
-    uint32_t first;
-    float high[3];
-    uint32_t count;
+    float low[4], high[4]; /* the fourth lanes are not used */
+    uint32_t first, count;
 } GiBuildNode;
 
 typedef struct GiBuildTree {

@@ -73,8 +73,7 @@ static void prepare_items(void *context, size_t begin, size_t end, int worker) {
         item->high[0] = (float)(high.x * scale);
         item->high[1] = (float)(high.y * scale);
         item->high[2] = (float)(high.z * scale);
-        item->id = prepare->refs[i].bits;
-        item->unused = 0;
+        gi_build_set_id(item, prepare->refs[i].bits);
     }
 }
 
@@ -92,7 +91,7 @@ typedef struct Layout {
 
 static bool leaf_is_spheres(const GiBuildItem *items, const GiBuildNode *leaf) {
     for (uint32_t i = 0; i < leaf->count; i++) {
-        GiShapeRef ref = {items[leaf->first + i].id};
+        GiShapeRef ref = {gi_build_id(&items[leaf->first + i])};
         if (gi_shape_kind(ref) != GI_SHAPE_SPHERE) return false;
     }
     return true;
@@ -107,7 +106,7 @@ static uint32_t emit_spheres(Layout *layout, const GiBuildNode *leaf) {
             block->shape[i].bits = GI_SHAPE_NONE;
             continue;
         }
-        GiShapeRef ref = {layout->items[leaf->first + i].id};
+        GiShapeRef ref = {gi_build_id(&layout->items[leaf->first + i])};
         const GiSphere *sphere = &layout->shapes->spheres[gi_shape_index(ref)];
         GiVec center = gi_scale(gi_sub(sphere->center, layout->center), layout->scale);
         double radius = sphere->radius * layout->scale;
@@ -130,7 +129,7 @@ static uint32_t emit_boxes(Layout *layout, const GiBuildNode *leaf) {
             block->low[axis][i] = item != NULL ? item->low[axis] : INFINITY;
             block->high[axis][i] = item != NULL ? item->high[axis] : -INFINITY;
         }
-        block->shape[i].bits = item != NULL ? item->id : GI_SHAPE_NONE;
+        block->shape[i].bits = item != NULL ? gi_build_id(item) : GI_SHAPE_NONE;
     }
     return GI_CHILD_BLOCK | tree->box_block_count++;
 }

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+#include "contest.h"
+
+#include "message.h"
+#include "picture.h"
+#include "process.h"
+#include "program.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static bool is_glint(Program program) {
+    return program == PROGRAM_GLINT || program == PROGRAM_OTHER_GLINT;
+}
+
+/* The picture of the first round is linear float, which says most; those of the others are what
+ * users write, and must be equal byte by byte. */
+static void check_picture(
+    const BenchScene *scene, Program program, Entry *entry, const char *picture, bool warm_up) {
+    uint64_t hash = picture_hash(picture),
+             *known = warm_up ? &entry->pixel_hash : &entry->file_hash;
+    if (*known != 0 && *known != hash) {
+        message_fail(
+            "%s: %s drew two different pictures", scene->name, contest_program_name(program));
+    }
+    *known = hash;
+}
+
+static void run_once(const Field *field, Contest *contest, Program program, int threads, int rep) {
+    Entry *entry = &contest->entries[program][threads - 1];
+    bool warm_up = rep < 0;
+    Command command;
+    program_command(field, &contest->scene, program, threads, warm_up, &command);
+    remove(command.picture);
+    ProcessResult result = process_run(command.arguments, command.output, command.error);
+    if (!result.good && is_glint(program)) {
+        message_show_file(command.error);
+        message_fail("%s: %s failed", contest->scene.name, command.arguments[0]);
+    }
+    if (!result.good) {
+        entry->broken = true;
+        return;
+    }
+    if (is_glint(program)) {
+        check_picture(&contest->scene, program, entry, command.picture, warm_up);
+    }
+    if (warm_up) return;
+    entry->values[MEASURE_WALL][rep] = result.wall_seconds;
+    entry->values[MEASURE_CPU][rep] = result.cpu_seconds;
+    entry->values[MEASURE_PEAK][rep] = (double)result.peak_size;
+    if (is_glint(program)) program_phases(command.output, entry, rep);
+    entry->rep_count = rep + 1;
+}
+
+/* A thread more or less must not change a picture, and of another revision one wants to know. */
+static void compare_pictures(Contest *contest) {
+    for (int program = PROGRAM_GLINT; program <= PROGRAM_OTHER_GLINT; program++) {
+        const Entry *one = &contest->entries[program][0], *two = &contest->entries[program][1];
+        if (one->pixel_hash != two->pixel_hash || one->file_hash != two->file_hash) {
+            message_fail("%s: %s draws different pictures with one and with two threads",
+                contest->scene.name, contest_program_name((Program)program));
+        }
+    }
+    const Entry *ours = contest->entries[PROGRAM_GLINT];
+    const Entry *others = contest->entries[PROGRAM_OTHER_GLINT];
+    contest->pictures_differ = others->rep_count > 0 && ours->pixel_hash != others->pixel_hash;
+}
+
+void contest_run(const Field *field, const BenchScene *scene, Contest *contest) {
+    memset(contest, 0, sizeof *contest);
+    contest->scene = *scene;
+    contest->surface_count = sample_surface_count(&scene->sample);
+    for (int rep = -1; rep < field->rep_count; rep++) {
+        for (int program = 0; program < PROGRAM_COUNT; program++) {
+            if (field->paths[program][0] == '\0') continue;
+            if (!scenes_has(scene, program_format((Program)program))) continue;
+            for (int threads = 1; threads <= THREADS_MAX; threads++) {
+                if (contest->entries[program][threads - 1].broken) continue;
+                run_once(field, contest, (Program)program, threads, rep);
+            }
+        }
+    }
+    for (int program = 0; program < PROGRAM_COUNT; program++) {
+        for (int i = 0; i < THREADS_MAX; i++) {
+            Entry *entry = &contest->entries[program][i];
+            if (entry->broken) entry->rep_count = 0;
+            for (int measure = 0; measure < MEASURE_COUNT; measure++) {
+                entry->spreads[measure] =
+                    statistics_spread(entry->values[measure], entry->rep_count);
+            }
+        }
+    }
+    compare_pictures(contest);
+}
+
+const Entry *contest_best_povray(const Contest *contest, int threads) {
+    const Entry *best = NULL;
+    for (int program = PROGRAM_POVRAY_BM1; program <= PROGRAM_POVRAY_BM2; program++) {
+        const Entry *entry = &contest->entries[program][threads - 1];
+        if (entry->rep_count == 0) continue;
+        if (best == NULL ||
+            entry->spreads[MEASURE_WALL].median < best->spreads[MEASURE_WALL].median) {
+            best = entry;
+        }
+    }
+    return best;
+}

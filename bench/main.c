@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT
+ * glint-bench: how fast is glint, from start to exit, and how fast are its peers on the same
+ * scenes? The scenes come from samples/ and are kept in the folder bench-scenes beside this
+ * program. While it measures, it checks that every run draws the same picture. */
+#define _XOPEN_SOURCE 700 /* realpath */
+#include "contest.h"
+#include "machine.h"
+#include "message.h"
+#include "options.h"
+#include "picture.h"
+#include "process.h"
+#include "report.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* The folder that this program lies in. */
+static void own_folder(const char *name, char folder[PATH_SIZE]) {
+    char path[PATH_SIZE];
+    if (strchr(name, '/') != NULL) {
+        message_format(path, sizeof path, "%s", name);
+    } else if (!process_find(name, path, sizeof path)) {
+        message_fail("where am I?");
+    }
+    char *slash = strrchr(path, '/');
+    *slash = '\0';
+    char *whole = realpath(slash == path ? "/" : path, NULL);
+    if (whole == NULL) message_fail("where am I?");
+    message_format(folder, PATH_SIZE, "%s", whole);
+    free(whole);
+}
+
+static void require(const char *path) {
+    if (access(path, X_OK) != 0) message_fail("%s is not a program", path);
+}
+
+static void find_programs(const Options *options, const char *folder, Field *field) {
+    char(*paths)[PATH_SIZE] = field->paths;
+    if (options->glint != NULL) {
+        message_format(paths[PROGRAM_GLINT], PATH_SIZE, "%s", options->glint);
+    } else {
+        message_format(paths[PROGRAM_GLINT], PATH_SIZE, "%s/glint", folder);
+    }
+    require(paths[PROGRAM_GLINT]);
+    if (options->against != NULL) {
+        message_format(paths[PROGRAM_OTHER_GLINT], PATH_SIZE, "%s", options->against);
+        require(paths[PROGRAM_OTHER_GLINT]);
+    }
+    if (!process_find("tachyon", paths[PROGRAM_TACHYON], PATH_SIZE)) {
+        paths[PROGRAM_TACHYON][0] = '\0';
+        puts("Tachyon is not installed: no comparison with it");
+    }
+    if (!process_find("povray", paths[PROGRAM_POVRAY_BM1], PATH_SIZE)) {
+        paths[PROGRAM_POVRAY_BM1][0] = '\0';
+        puts("POV-Ray is not installed: no comparison with it");
+    }
+    memcpy(paths[PROGRAM_POVRAY_BM2], paths[PROGRAM_POVRAY_BM1], PATH_SIZE);
+}
+
+static void report_details(const Contest *contests, int count, const EncodeResult *encode) {
+    putchar('\n');
+    for (int i = 0; i < count; i++) {
+        if (contests[i].scene.sample.kind != SAMPLE_TINY) continue;
+        const Spread *wall = &contests[i].entries[PROGRAM_GLINT][0].spreads[MEASURE_WALL];
+        printf("tiny scene, start to exit: %.2f ms (%.2f-%.2f)\n", 1e3 * wall->median,
+            1e3 * wall->least, 1e3 * wall->most);
+    }
+    printf("PNG of %d x %d on one core: %.2f ms (%.2f-%.2f), %.0f kB\n", ENCODE_EDGE, ENCODE_EDGE,
+        1e3 * encode->seconds.median, 1e3 * encode->seconds.least, 1e3 * encode->seconds.most,
+        1e-3 * (double)encode->size);
+}
+
+static void save(const Contest *contests, int count, const EncodeResult *encode, const char *path) {
+    FILE *file = fopen(path, "w");
+    if (file == NULL) message_fail("%s cannot be written", path);
+    report_csv(contests, count, encode, file);
+    bool good = !ferror(file);
+    if (fclose(file) != 0 || !good) message_fail("%s cannot be written", path);
+    printf("the numbers are in %s\n", path);
+}
+
+int main(int argc, char **argv) {
+    static Field field;
+    static BenchScene scenes[SCENE_MAX];
+    Options options = options_parse(argc, argv);
+    int count = scenes_parse(options.scenes, options.edge, scenes);
+    Contest *contests = calloc((size_t)count, sizeof contests[0]);
+    if (contests == NULL) message_fail("not enough memory");
+
+    char text[PATH_SIZE], folder[PATH_SIZE];
+    machine_describe(text, sizeof text);
+    puts(text);
+    own_folder(argv[0], folder);
+    message_format(field.cache, PATH_SIZE, "%s/bench-scenes", folder);
+    if (mkdir(field.cache, 0777) != 0 && errno != EEXIST) {
+        message_fail("%s cannot be made", field.cache);
+    }
+    field.rep_count = options.rep_count;
+    find_programs(&options, folder, &field);
+
+    bool differ = false;
+    for (int i = 0; i < count; i++) {
+        contest_run(&field, &scenes[i], &contests[i]);
+        report_scene(&contests[i]);
+        differ = differ || contests[i].pictures_differ;
+    }
+    if (count > 1) report_summary(contests, count);
+    EncodeResult encode = picture_encode(options.rep_count);
+    report_details(contests, count, &encode);
+
+    if (options.csv != NULL) save(contests, count, &encode, options.csv);
+    if (options.results != NULL) {
+        char name[512];
+        machine_file_name(name, sizeof name);
+        message_format(text, sizeof text, "%s/%s", options.results, name);
+        save(contests, count, &encode, text);
+    }
+    free(contests);
+    if (differ) message_fail("the two glints draw different pictures");
+    return 0;
+}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT
+ * The command line of glint-bench. */
+#pragma once
+
+#include <stdbool.h>
+
+typedef struct Options {
+    const char *scenes;  /* comma-separated */
+    const char *glint;   /* null: beside this program */
+    const char *against; /* null: no second one */
+    const char *csv;     /* null: none */
+    const char *results; /* folder for the CSV named for the machine; null: none */
+    int rep_count;
+    int edge; /* of a picture, pixels */
+} Options;
+
+/* Ends the program on --help and on wrong use. */
+Options options_parse(int argc, char **argv);

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT
+ * The numbers for people (standard output) and for programs (CSV). */
+#pragma once
+
+#include "contest.h"
+#include "picture.h"
+
+#include <stdio.h>
+
+/* The table of one scene, and how many times as fast as the others Glint is. */
+void report_scene(const Contest *contest);
+
+/* One line a scene: the ratios at a glance. */
+void report_summary(const Contest *contests, int count);
+
+/* A row for each scene, program and number of threads, and one for the encoder. */
+void report_csv(const Contest *contests, int count, const EncodeResult *encode, FILE *file);
