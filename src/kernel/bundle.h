@@ -42,6 +42,7 @@ typedef struct Tile {
     bool any;
     unsigned alive[GI_PACKET_COUNT]; /* bits of rays that still look for something */
     float a[GI_BUNDLE_SIZE], b[GI_BUNDLE_SIZE], far[GI_BUNDLE_SIZE]; /* the rays as points */
+    uint32_t inverse_known[GI_BUNDLE_SIZE / 32]; /* bits of groups of GI_DOUBLES rays */
     Packets packets;
     Frustum frustum;
     double scale;
@@ -117,17 +118,14 @@ static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiV
         for (int i = k * GI_PACKET_SIZE; i < (k + 1) * GI_PACKET_SIZE; i += GI_DOUBLES) {
             R x = r_load(bundle->dx + i), y = r_load(bundle->dy + i), z = r_load(bundle->dz + i);
             R square = x * x + y * y + z * z;
-            r_store(bundle->ix + i, gi_wide_inverse(x));
-            r_store(bundle->iy + i, gi_wide_inverse(y));
-            r_store(bundle->iz + i, gi_wide_inverse(z));
             r_store(bundle->inverse_square + i, R_OF(1) / square);
             R depth = R_OF(toward) * tile_dot(w, x, y, z);
             /* Within 66 degrees of the axis: depth / |d| > 0.4. */
             oblique = oblique | M_NOT(R_LESS(R_OF(0.16) * square, depth * depth) &
                                       R_LESS(R_OF(0), depth));
             r_store(bundle->depth + i, depth);
-            R a = R_OF(toward) * tile_dot(u, x, y, z) / depth;
-            R b = R_OF(toward) * tile_dot(v, x, y, z) / depth;
+            R scale = R_OF(toward) / depth;
+            R a = tile_dot(u, x, y, z) * scale, b = tile_dot(v, x, y, z) * scale;
             a0 = R_MIN(a0, a);
             a1 = R_MAX(a1, a);
             b0 = R_MIN(b0, b);
@@ -136,15 +134,9 @@ static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiV
             R reach = depth;
             if (!tile->any) reach = depth * r_load(bundle->t_max + i);
             far = R_MAX(far, reach);
-            double lane_a[GI_DOUBLES], lane_b[GI_DOUBLES], lane_far[GI_DOUBLES];
-            r_store(lane_a, a);
-            r_store(lane_b, b);
-            r_store(lane_far, reach);
-            for (int j = 0; j < GI_DOUBLES; j++) {
-                tile->a[i + j] = (float)lane_a[j];
-                tile->b[i + j] = (float)lane_b[j];
-                tile->far[i + j] = (float)(lane_far[j] * tile->scale) * (1 + GI_WIDER);
-            }
+            r_store_floats(tile->a + i, a);
+            r_store_floats(tile->b + i, b);
+            r_store_floats(tile->far + i, reach * R_OF(tile->scale * (1 + GI_WIDER)));
         }
         packets->a0[k] = (float)r_minimum(a0), packets->a1[k] = (float)r_maximum(a1);
         packets->b0[k] = (float)r_minimum(b0), packets->b1[k] = (float)r_maximum(b1);
@@ -356,11 +348,29 @@ static inline void tile_refresh_far(Tile *tile) {
 
 /* ---------------------------------------------------------------- deciding */
 
-static inline gi_wide_Ray tile_ray(const GiBundle *bundle, int i) {
-    return (gi_wide_Ray){r_load(bundle->ox + i), r_load(bundle->oy + i), r_load(bundle->oz + i),
-        r_load(bundle->dx + i), r_load(bundle->dy + i), r_load(bundle->dz + i),
-        r_load(bundle->ix + i), r_load(bundle->iy + i), r_load(bundle->iz + i),
-        r_load(bundle->inverse_square + i)};
+/* The rays from i on. Only slabs need 1 / d, so it is worked out when the first slab is met. */
+static inline gi_wide_Ray tile_ray(Tile *tile, GiShapeRef ref, int i) {
+    GiBundle *bundle = tile->bundle;
+    gi_wide_Ray ray = {.ox = r_load(bundle->ox + i),
+        .oy = r_load(bundle->oy + i),
+        .oz = r_load(bundle->oz + i),
+        .dx = r_load(bundle->dx + i),
+        .dy = r_load(bundle->dy + i),
+        .dz = r_load(bundle->dz + i),
+        .inverse_square = r_load(bundle->inverse_square + i)};
+    if (gi_shape_kind(ref) != GI_SHAPE_BOX && gi_shape_kind(ref) != GI_SHAPE_CONE) return ray;
+    uint32_t bit = 1u << i / GI_DOUBLES % 32;
+    uint32_t *known = &tile->inverse_known[i / GI_DOUBLES / 32];
+    if (!(*known & bit)) {
+        *known |= bit;
+        r_store(bundle->ix + i, gi_wide_inverse(ray.dx));
+        r_store(bundle->iy + i, gi_wide_inverse(ray.dy));
+        r_store(bundle->iz + i, gi_wide_inverse(ray.dz));
+    }
+    ray.ix = r_load(bundle->ix + i);
+    ray.iy = r_load(bundle->iy + i);
+    ray.iz = r_load(bundle->iz + i);
+    return ray;
 }
 
 /* Of two shapes at the very same t the first in document order stays. */
@@ -386,7 +396,7 @@ static inline bool test_closest(Tile *tile, GiShapeRef ref, int packet, unsigned
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
-        gi_wide_Ray ray = tile_ray(bundle, i);
+        gi_wide_Ray ray = tile_ray(tile, ref, i);
         R t, best = r_load(bundle->t + i);
         M hit = gi_wide_shape(tile->trace->shapes, ref, &ray, r_load(bundle->t_min + i),
             r_load(bundle->t_max + i), &t);
@@ -415,7 +425,7 @@ static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned ray
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
-        gi_wide_Ray ray = tile_ray(bundle, i);
+        gi_wide_Ray ray = tile_ray(tile, ref, i);
         R t;
         M hit = gi_wide_shape(tile->trace->shapes, ref, &ray, r_load(bundle->t_min + i),
             r_load(bundle->t_max + i), &t);
@@ -513,6 +523,7 @@ static inline void bundle_trace(const GiTrace *trace, GiBundle *bundle, bool any
     tile.bundle = bundle;
     tile.any = any;
     tile.scale = trace->tree->scale;
+    for (int i = 0; i < GI_BUNDLE_SIZE / 32; i++) tile.inverse_known[i] = 0;
     for (int i = 0; i < GI_BUNDLE_SIZE; i++) bundle->shape[i] = GI_SHAPE_NONE;
     GiVec u, v, w;
     if (bundle->count >= TILE_MINIMUM && tile_frame(bundle, toward, &u, &v, &w)) {

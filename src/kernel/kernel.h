@@ -44,7 +44,7 @@ typedef struct GiBundle {
     int count; /* 1 to 256 */
     GiVec apex;
     GiVec side; /* a direction the packets are aligned with; zero: none known */
-    /* Filled in by the kernel: 1 / d and 1 / d.d, depth of the direction along the axis. */
+    /* Filled in by the kernel: 1 / d where needed, 1 / d.d, depth of the direction along the axis. */
     double ix[GI_BUNDLE_SIZE], iy[GI_BUNDLE_SIZE], iz[GI_BUNDLE_SIZE];
     double inverse_square[GI_BUNDLE_SIZE], depth[GI_BUNDLE_SIZE];
 } GiBundle;

@@ -107,6 +107,7 @@ static inline unsigned m_bits(M m) { return m; }
 static inline R r_load(const double *p) { return _mm512_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm512_storeu_pd(p, a); }
 static inline double r_maximum(R a) { return _mm512_reduce_max_pd(a); }
+static inline void r_store_floats(float *p, R a) { _mm256_storeu_ps(p, _mm512_cvtpd_ps(a)); }
 static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
     _mm256_mask_storeu_epi32(p, (__mmask8)bits, _mm256_set1_epi32((int)value));
 }
@@ -130,6 +131,7 @@ static inline unsigned m_bits(M m) {
 }
 static inline R r_load(const double *p) { return _mm256_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm256_storeu_pd(p, a); }
+static inline void r_store_floats(float *p, R a) { _mm_storeu_ps(p, _mm256_cvtpd_ps(a)); }
 #elif defined(GI_IS_SSE2)
 enum { GI_DOUBLES = 2 };
 #define R __m128d
@@ -152,6 +154,9 @@ static inline R r_select(M m, R a, R b) {
 static inline unsigned m_bits(M m) { return (unsigned)_mm_movemask_pd(_mm_castsi128_pd(m)); }
 static inline R r_load(const double *p) { return _mm_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm_storeu_pd(p, a); }
+static inline void r_store_floats(float *p, R a) {
+    _mm_storel_epi64((__m128i *)(void *)p, _mm_castps_si128(_mm_cvtpd_ps(a)));
+}
 #else
 enum { GI_DOUBLES = 1 };
 #define R double
@@ -169,6 +174,7 @@ enum { GI_DOUBLES = 1 };
 static inline unsigned m_bits(M m) { return (unsigned)m; }
 static inline R r_load(const double *p) { return *p; }
 static inline void r_store(double *p, R a) { *p = a; }
+static inline void r_store_floats(float *p, R a) { *p = (float)a; }
 #endif
 
 #ifndef GI_IS_AVX512

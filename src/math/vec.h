@@ -42,3 +42,10 @@ static inline GiVec gi_along(GiVec o, GiVec d, double t) {
 }
 
 static inline bool gi_vec_is_zero(GiVec a) { return a.x == 0 && a.y == 0 && a.z == 0; }
+
+/* The largest component, without its sign. */
+static inline double gi_largest(GiVec v) {
+    double x = fabs(v.x), y = fabs(v.y), z = fabs(v.z);
+    double most = x > y ? x : y;
+    return most > z ? most : z;
+}

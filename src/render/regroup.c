@@ -109,9 +109,10 @@ static void rank(GiRegroup *regroup, const float *value, int count, int factor) 
     int counts[BUCKETS] = {0};
     for (int i = 0; i < count; i++) counts[(int)((value[i] - low) * scale)]++;
     uint16_t ranks[BUCKETS];
+    float rank_scale = (RANKS - 0.01f) / (float)count;
     for (int i = 0, below = 0; i < BUCKETS; i++) {
         int middle = below + counts[i] / 2; /* of a bucket, which is not split */
-        ranks[i] = (uint16_t)(middle * RANKS / count * factor);
+        ranks[i] = (uint16_t)((int)((float)middle * rank_scale) * factor);
         below += counts[i];
     }
     for (int i = 0; i < count; i++) {

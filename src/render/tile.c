@@ -14,14 +14,16 @@ enum {
 typedef struct Hit {
     GiVec point, normal, toward_viewer;
     double error; /* distance within which a ray from here might meet its own surface */
-    uint32_t pixel, shader, shape;
+    uint32_t pixel, shader;
+    uint32_t skip; /* what shadow rays from here do not meet, or GI_SHAPE_NONE */
 } Hit;
 
-/* What a light will add to a hit unless something is in between. */
+/* What a light will add to a hit unless something is in between: one struct with all that the
+ * shadow ray needs, because rays are taken in another order than hits. */
 typedef struct Pending {
-    uint32_t hit;
-    double distance; /* to the light */
-    GiVec light;
+    GiVec point, light;
+    double t_min; /* of the ray from the point to the light, whose t is 1 there */
+    uint32_t pixel, skip;
 } Pending;
 
 struct GiTileScratch {
@@ -65,9 +67,12 @@ static void keep_hit(const GiWorld *world, GiTileScratch *scratch, int i, uint32
     GiVec direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]};
     GiSurfacePoint at = gi_shape_point(&world->shapes, ref, origin, direction, bundle->t[i],
         world->rules->cone_geometric);
-    uint32_t shader = gi_shape_info(&world->shapes, ref)->shader;
+    GiShapeRef own = gi_shape_unplaced(&world->shapes, ref);
+    bool skip =
+        !world->rules->sphere_shadows_itself && gi_shape_kind(own) == GI_SHAPE_SPHERE;
+    uint32_t shader = world->shapes.info[gi_shape_kind(own)][gi_shape_index(own)].shader;
     scratch->hits[scratch->hit_count++] = (Hit){at.point, at.normal, gi_negate(direction), at.error,
-        pixel, shader, ref.bits};
+        pixel, shader, skip ? ref.bits : GI_SHAPE_NONE};
     scratch->color[pixel] = gi_shade_emit(&world->scene->shaders.data[shader], at.normal);
 }
 
@@ -127,67 +132,71 @@ static void trace_block(const GiWorld *world, const Extent *extent, int block_x,
 
 /* ---------------------------------------------------------------- lights */
 
+/* Traces the shadow rays, in an order of the kernels' liking, and adds what arrives. */
 static void trace_pending(const GiWorld *world, const GiLight *light, int count,
     GiTileScratch *scratch, const GiTileControl *control) {
-    const GiRules *rules = world->rules;
-    for (int i = 0; i < count; i++) {
-        const Hit *hit = &scratch->hits[scratch->pending[i].hit];
-        scratch->regroup.x[i] = (float)(light->position.x - hit->point.x);
-        scratch->regroup.y[i] = (float)(light->position.y - hit->point.y);
-        scratch->regroup.z[i] = (float)(light->position.z - hit->point.z);
-    }
+    GiBundle *bundle = &scratch->bundle;
     gi_regroup(&scratch->regroup, count);
     for (int begin = 0; begin < count && !stopped(control); begin += GI_BUNDLE_SIZE) {
-        GiBundle *bundle = &scratch->bundle;
+        const uint16_t *order = scratch->regroup.order + begin;
         bundle->count = count - begin < GI_BUNDLE_SIZE ? count - begin : GI_BUNDLE_SIZE;
         bundle->apex = light->position;
         bundle->side = gi_vec(0, 0, 0);
         for (int i = 0; i < bundle->count; i++) {
-            int at = scratch->regroup.order[begin + i];
-            const Hit *hit = &scratch->hits[scratch->pending[at].hit];
-            GiVec d = gi_sub(light->position, hit->point);
-            bundle->ox[i] = hit->point.x, bundle->oy[i] = hit->point.y, bundle->oz[i] = hit->point.z;
-            bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
-            double away = rules->shadow_distance > 0 ? rules->shadow_distance : hit->error;
-            bundle->t_min[i] = away / scratch->pending[at].distance;
+            const Pending *pending = &scratch->pending[order[i]];
+            bundle->ox[i] = pending->point.x;
+            bundle->oy[i] = pending->point.y;
+            bundle->oz[i] = pending->point.z;
+            bundle->dx[i] = light->position.x - pending->point.x;
+            bundle->dy[i] = light->position.y - pending->point.y;
+            bundle->dz[i] = light->position.z - pending->point.z;
+            bundle->t_min[i] = pending->t_min;
             bundle->t_max[i] = 1;
-            GiShapeRef own = gi_shape_unplaced(&world->shapes, (GiShapeRef){hit->shape});
-            bool skip = !rules->sphere_shadows_itself && gi_shape_kind(own) == GI_SHAPE_SPHERE;
-            bundle->skip[i] = skip ? hit->shape : GI_SHAPE_NONE;
+            bundle->skip[i] = pending->skip;
         }
         world->kernel->bundle_any(&world->trace, bundle);
         for (int i = 0; i < bundle->count; i++) {
             if (bundle->shape[i] != GI_SHAPE_NONE) continue;
-            const Pending *pending = &scratch->pending[scratch->regroup.order[begin + i]];
-            GiVec *color = &scratch->color[scratch->hits[pending->hit].pixel];
+            const Pending *pending = &scratch->pending[order[i]];
+            GiVec *color = &scratch->color[pending->pixel];
             *color = gi_add(*color, pending->light);
         }
     }
 }
 
-/* Adds one light to all hits. */
-static void add_light(
-    const GiWorld *world, const GiLight *light, GiTileScratch *scratch, GiRenderCounts *counts,
-    const GiTileControl *control) {
-    int count = 0;
+static void add_ambient(const GiWorld *world, const GiLight *light, GiTileScratch *scratch) {
     for (int i = 0; i < scratch->hit_count; i++) {
         const Hit *hit = &scratch->hits[i];
         const GiShader *shader = &world->scene->shaders.data[hit->shader];
-        if (light->type != GLINT_LIGHT_POINT) {
-            GiVec *color = &scratch->color[hit->pixel];
-            *color = gi_add(*color, gi_shade_ambient(shader, light, hit->normal));
-            continue;
-        }
+        GiVec *color = &scratch->color[hit->pixel];
+        *color = gi_add(*color, gi_shade_ambient(shader, light, hit->normal));
+    }
+}
+
+/* Adds one point light to all hits. */
+static void add_light(const GiWorld *world, const GiLight *light, GiTileScratch *scratch,
+    GiRenderCounts *counts, const GiTileControl *control) {
+    const GiRules *rules = world->rules;
+    GiRegroup *regroup = &scratch->regroup;
+    int count = 0;
+    for (int i = 0; i < scratch->hit_count; i++) {
+        const Hit *hit = &scratch->hits[i];
         GiVec d = gi_sub(light->position, hit->point);
         double square = gi_dot(d, d);
         if (!(square > 0)) continue; /* the light is on the surface */
-        double distance = sqrt(square);
+        double inverse = 1 / sqrt(square);
+        const GiShader *shader = &world->scene->shaders.data[hit->shader];
         GiVec factor = gi_shade_reflect(
-            shader, world->rules, hit->normal, hit->toward_viewer, gi_scale(d, 1 / distance));
-        GiVec strength = gi_light_strength(light, world->rules, square);
-        GiVec adds = gi_multiply(strength, factor);
+            shader, rules, hit->normal, hit->toward_viewer, gi_scale(d, inverse));
+        GiVec adds = gi_multiply(gi_shade_light(light, rules, square), factor);
         if (gi_vec_is_zero(adds)) continue;
-        scratch->pending[count++] = (Pending){(uint32_t)i, distance, adds};
+        double away = rules->shadow_distance > 0 ? rules->shadow_distance : hit->error;
+        scratch->pending[count] =
+            (Pending){hit->point, adds, away * inverse, hit->pixel, hit->skip};
+        regroup->x[count] = (float)d.x;
+        regroup->y[count] = (float)d.y;
+        regroup->z[count] = (float)d.z;
+        count++;
     }
     if (count > 0) trace_pending(world, light, count, scratch, control);
     counts->shadow_rays += (uint64_t)count;
@@ -216,7 +225,12 @@ static void draw_sample(const GiWorld *world, const GiRenderArea *area, const Ex
     counts->camera_rays += (uint64_t)extent->width * (uint64_t)extent->height;
     const GiScene *scene = world->scene;
     for (size_t i = 0; i < scene->lights.count && !stopped(control); i++) {
-        add_light(world, &scene->lights.data[i], scratch, counts, control);
+        const GiLight *light = &scene->lights.data[i];
+        if (light->type == GLINT_LIGHT_POINT) {
+            add_light(world, light, scratch, counts, control);
+        } else {
+            add_ambient(world, light, scratch);
+        }
     }
 }
 

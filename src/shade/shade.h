@@ -1,14 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * What a surface sends toward the viewer. The code reads as docs/scene-format.md does; what differs
- * between years is asked of GiRules. */
+ * between years is asked of GiRules. What is done for every hit and light is inline. */
 #pragma once
 
+#include "math/elementary.h"
 #include "scene/scene.h"
-
-/* The part of light that comes from direction l (unit) and leaves toward v (unit), times the cosine
- * n.l: light of irradiance-like strength E adds E * this. */
-GiVec gi_shade_reflect(
-    const GiShader *shader, const GiRules *rules, GiVec normal, GiVec toward_viewer, GiVec l);
 
 /* What is there without any light. */
 GiVec gi_shade_emit(const GiShader *shader, GiVec normal);
@@ -16,8 +12,47 @@ GiVec gi_shade_emit(const GiShader *shader, GiVec normal);
 /* What lights without a place add: ambient, constant and normal lights. */
 GiVec gi_shade_ambient(const GiShader *shader, const GiLight *light, GiVec normal);
 
-/* (n + 1) / 2 */
-GiVec gi_shade_normal_color(GiVec normal);
+static inline double gi_shade_positive(double x) { return x > 0 ? x : 0; }
+
+static inline double gi_shade_diffuse_factor(const GiRules *rules) {
+    return rules->diffuse_over_pi ? 0.31830988618379067 : 1;
+}
+
+static inline GiVec gi_shade_lambertian(const GiShader *shader, const GiRules *rules, double nl) {
+    return gi_scale(shader->diffuse, gi_shade_diffuse_factor(rules) * gi_shade_positive(nl));
+}
+
+/* Blinn (1977). */
+static inline GiVec gi_shade_phong(
+    const GiShader *shader, const GiRules *rules, GiVec n, GiVec v, GiVec l) {
+    double nl = gi_dot(n, l);
+    if (rules->highlight_needs_light && nl <= 0) return gi_vec(0, 0, 0);
+    GiVec h = gi_normalize(gi_add(l, v));
+    double highlight = gi_pow(gi_shade_positive(gi_dot(n, h)), shader->exponent);
+    double cosine = gi_shade_positive(nl);
+    GiVec diffuse = gi_scale(shader->diffuse, gi_shade_diffuse_factor(rules) * cosine);
+    GiVec specular =
+        gi_scale(shader->specular, rules->phong_cosine ? highlight * cosine : highlight);
+    return gi_add(diffuse, specular);
+}
+
+/* The part of light that comes from direction l (unit) and leaves toward v (unit), times the cosine
+ * n.l: a light of strength E adds E times this. */
+static inline GiVec gi_shade_reflect(
+    const GiShader *shader, const GiRules *rules, GiVec n, GiVec v, GiVec l) {
+    if (rules->black_from_behind && gi_dot(n, v) < 0) return gi_vec(0, 0, 0);
+    switch (shader->type) {
+    case GLINT_SHADER_LAMBERTIAN: return gi_shade_lambertian(shader, rules, gi_dot(n, l));
+    case GLINT_SHADER_PHONG: return gi_shade_phong(shader, rules, n, v, l);
+    case GLINT_SHADER_RGB_NORMALS: break;
+    }
+    return gi_vec(0, 0, 0);
+}
 
 /* E of a point light at the given squared distance. */
-GiVec gi_light_strength(const GiLight *light, const GiRules *rules, double distance_square);
+static inline GiVec gi_shade_light(
+    const GiLight *light, const GiRules *rules, double distance_square) {
+    bool falls = light->falloff == GLINT_FALLOFF_INVERSE_SQUARE ||
+                 (light->falloff == GLINT_FALLOFF_DIALECT && rules->falloff);
+    return falls ? gi_scale(light->intensity, 1 / distance_square) : light->intensity;
+}

@@ -81,16 +81,6 @@ GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref) {
 
 /* ---------------------------------------------------------------- point and normal */
 
-static double largest(GiVec v) {
-    return gi_hit_maximum(fabs(v.x), gi_hit_maximum(fabs(v.y), fabs(v.z)));
-}
-
-static GiSurfacePoint sphere_point(const GiSphere *sphere, GiVec p) {
-    GiVec normal = gi_normalize(gi_sub(p, sphere->center));
-    return (GiSurfacePoint){
-        gi_along(sphere->center, normal, sphere->radius), normal, sphere->radius};
-}
-
 /* The face is the one whose plane the ray crosses at t: the same operations as in the test give
  * the same t to the bit. */
 static GiSurfacePoint box_point(const GiBox *box, const gi_hit_Ray *ray, GiVec p, double t) {
@@ -140,7 +130,7 @@ static GiSurfacePoint cone_point(
 
 static GiSurfacePoint flat_point(GiVec point, GiVec normal, GiVec p) {
     return (GiSurfacePoint){gi_along(p, normal, gi_dot(gi_sub(point, p), normal)), normal,
-        largest(gi_sub(p, point))};
+        gi_largest(gi_sub(p, point))};
 }
 
 /* error: the size of the numbers beside the point's own. */
@@ -148,7 +138,7 @@ static GiSurfacePoint unplaced_point(const GiShapes *shapes, GiShapeRef ref, GiV
     GiVec direction, double t, bool second_nappe_geometric) {
     uint32_t i = gi_shape_index(ref);
     GiVec p = gi_along(origin, direction, t);
-    if (gi_shape_kind(ref) == GI_SHAPE_SPHERE) return sphere_point(&shapes->spheres[i], p);
+    if (gi_shape_kind(ref) == GI_SHAPE_SPHERE) return gi_sphere_point(&shapes->spheres[i], p);
     gi_hit_Ray ray =
         gi_hit_ray(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z);
     switch (gi_shape_kind(ref)) {
@@ -168,16 +158,16 @@ static double norm(const GiAffine *a) {
     return most;
 }
 
-static double largest_offset(const GiAffine *a) {
+static double offset_of(const GiAffine *a) {
     return fmax(fabs(a->m[0][3]), fmax(fabs(a->m[1][3]), fabs(a->m[2][3])));
 }
 
-GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref, GiVec origin, GiVec direction,
+GiSurfacePoint gi_shape_point_any(const GiShapes *shapes, GiShapeRef ref, GiVec origin, GiVec direction,
     double t, bool second_nappe_geometric) {
     GiSurfacePoint at;
     if (gi_shape_kind(ref) != GI_SHAPE_PLACED) {
         at = unplaced_point(shapes, ref, origin, direction, t, second_nappe_geometric);
-        at.error = (at.error + largest(at.point)) * GI_SURFACE_ERROR;
+        at.error = (at.error + gi_largest(at.point)) * GI_SURFACE_ERROR;
         return at;
     }
     const GiPlacement *placement = &shapes->placements[gi_shape_index(ref)];
@@ -188,9 +178,9 @@ GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref, GiVec orig
     at = unplaced_point(shapes, placement->shape, origin, direction, t, second_nappe_geometric);
     /* Errors in object space are stretched by the transform, those of the way there shrunk and
      * stretched again: the product of the two norms bounds both. */
-    double error = (at.error + largest(at.point)) * norm(&transform->to_world);
+    double error = (at.error + gi_largest(at.point)) * norm(&transform->to_world);
     at.point = gi_affine_point(&transform->to_world, at.point);
-    double there = (largest(at.point) + largest_offset(&transform->to_world)) *
+    double there = (gi_largest(at.point) + offset_of(&transform->to_world)) *
                    norm(&transform->to_object) * norm(&transform->to_world);
     at.error = (error + there) * GI_SURFACE_ERROR;
     at.normal = gi_normalize(gi_affine_transposed_vector(&transform->to_object, at.normal));
