@@ -255,15 +255,29 @@ GlintStatus glint_scene_set_image(
     return GLINT_OK;
 }
 
+static bool is_positive(double value) { return value > 0 && isfinite(value); }
+
+static const char *check_camera(const GlintCameraDesc *desc) {
+    if ((unsigned)desc->type > GLINT_CAMERA_PARALLEL) return "no such camera type";
+    if (!is_finite3(desc->view_point)) return "view_point is not finite";
+    if (!is_finite3(desc->view_direction)) return "view_direction is not finite";
+    if (is_zero3(desc->view_direction)) return "view_direction has no length";
+    if (!is_finite3(desc->view_up)) return "view_up is not finite";
+    if (is_zero3(desc->view_up)) return "view_up has no length";
+    if (!is_finite3(desc->projection_normal)) return "projection_normal is not finite";
+    if (!is_positive(desc->projection_distance)) {
+        return "projection_distance must be positive and finite";
+    }
+    if (!is_positive(desc->view_width)) return "view_width must be positive and finite";
+    if (!is_positive(desc->view_height)) return "view_height must be positive and finite";
+    return NULL;
+}
+
 GlintStatus glint_scene_set_camera(
     GlintScene *scene, const GlintCameraDesc *desc, GlintError *error) {
     CHECK_OPEN(scene, desc, "glint_camera_desc_default", error);
-    if (!is_finite3(desc->view_point) || !is_finite3(desc->view_direction) ||
-        !is_finite3(desc->view_up) || !is_finite3(desc->projection_normal) ||
-        !isfinite(desc->projection_distance) || !isfinite(desc->view_width) ||
-        !isfinite(desc->view_height)) {
-        return ARGUMENT(error, "a number of the camera is not finite");
-    }
+    const char *fault = check_camera(desc);
+    if (fault != NULL) return ARGUMENT(error, "%s", fault);
     GiCamera camera = {
         .type = desc->type,
         .view_point = gi_vec_from(desc->view_point),
@@ -274,8 +288,10 @@ GlintStatus glint_scene_set_camera(
         .view_width = desc->view_width,
         .view_height = desc->view_height,
     };
-    const char *fault = gi_scene_check_camera(&camera);
-    if (fault != NULL) return ARGUMENT(error, "%s", fault);
+    /* What is left is a matter of two vectors; the model's check names them as files do. */
+    if (gi_scene_check_camera(&camera) != NULL) {
+        return ARGUMENT(error, "view_up is parallel to the projection normal");
+    }
     scene->model.camera = camera;
     scene->model.has_camera = true;
     return GLINT_OK;
@@ -285,6 +301,9 @@ GlintStatus glint_scene_add_light(
     GlintScene *scene, const GlintLightDesc *desc, GlintError *error) {
     CHECK_OPEN(scene, desc, "glint_light_desc_default", error);
     if ((unsigned)desc->type > GLINT_LIGHT_NORMAL) return ARGUMENT(error, "no such light type");
+    if ((unsigned)desc->falloff > GLINT_FALLOFF_INVERSE_SQUARE) {
+        return ARGUMENT(error, "no such falloff");
+    }
     if (!is_finite3(desc->position)) return ARGUMENT(error, "position is not finite");
     if (!is_finite3(desc->intensity)) return ARGUMENT(error, "intensity is not finite");
     GiLight light = {

@@ -158,16 +158,17 @@ static inline bool goes_left(const GiBuildItem *item, const Binning *binning, Sp
     return bins[split.axis] < split.bin;
 }
 
+/* Every item is swapped to the end of the left part, and stays there when it belongs there: which
+ * side an item goes to cannot be foretold, so a branch on it would cost more than the moves. */
 static size_t partition(GiBuildItem *items, size_t count, const Binning *binning, Split split) {
-    size_t left = 0, right = count;
-    for (;;) {
-        while (left < right && goes_left(&items[left], binning, split)) left++;
-        while (left < right && !goes_left(&items[right - 1], binning, split)) right--;
-        if (left >= right) return left;
-        GiBuildItem swap = items[left];
-        items[left] = items[right - 1];
-        items[right - 1] = swap;
+    size_t left = 0;
+    for (size_t i = 0; i < count; i++) {
+        GiBuildItem item = items[i];
+        items[i] = items[left];
+        items[left] = item;
+        left += goes_left(&item, binning, split);
     }
+    return left;
 }
 
 /* Splits the range in two, or makes it a leaf and returns false. */

@@ -36,6 +36,16 @@ typedef struct Frustum {
     float a0, a1, b0, b1, far;
 } Frustum;
 
+/* One shape to be tested against some rays of one packet. */
+typedef struct Test {
+    GiShapeRef shape;
+    uint32_t packet, rays;
+} Test;
+
+/* As many tests as come together before they are made: their shapes have the time to arrive from
+ * memory, and what they would have hidden is not yet looked at too often. */
+enum { TEST_BATCH = 8, TEST_LIMIT = TEST_BATCH + GI_TREE_WIDTH * GI_PACKET_COUNT };
+
 typedef struct Tile {
     const GiTrace *trace;
     GiBundle *bundle;
@@ -46,6 +56,8 @@ typedef struct Tile {
     Packets packets;
     Frustum frustum;
     double scale;
+    int test_count;
+    Test tests[TEST_LIMIT];
 } Tile;
 
 /* ---------------------------------------------------------------- set-up */
@@ -155,6 +167,17 @@ static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiV
     return m_bits(oblique) == 0;
 }
 
+/* Outward normals of the four sides: p is outside when p . n > 0. */
+static inline void frustum_planes(Frustum *frustum) {
+    for (int i = 0; i < 3; i++) {
+        float u = frustum->axis[0][i], v = frustum->axis[1][i], w = frustum->axis[2][i];
+        frustum->plane[0][i] = w * frustum->a0 - u;
+        frustum->plane[1][i] = u - w * frustum->a1;
+        frustum->plane[2][i] = w * frustum->b0 - v;
+        frustum->plane[3][i] = v - w * frustum->b1;
+    }
+}
+
 static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
     Frustum *frustum = &tile->frustum;
     const GiTree *tree = tile->trace->tree;
@@ -170,18 +193,7 @@ static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
         frustum->axis[i][1] = (float)rows[i].y;
         frustum->axis[i][2] = (float)rows[i].z;
     }
-    /* Outward normals: p outside when p . n > 0. */
-    const GiVec planes[4] = {
-        gi_sub(gi_scale(w, frustum->a0), u),
-        gi_sub(u, gi_scale(w, frustum->a1)),
-        gi_sub(gi_scale(w, frustum->b0), v),
-        gi_sub(v, gi_scale(w, frustum->b1)),
-    };
-    for (int i = 0; i < 4; i++) {
-        frustum->plane[i][0] = (float)planes[i].x;
-        frustum->plane[i][1] = (float)planes[i].y;
-        frustum->plane[i][2] = (float)planes[i].z;
-    }
+    frustum_planes(frustum);
 }
 
 /* ---------------------------------------------------------------- culling */
@@ -302,40 +314,24 @@ static inline unsigned tile_boxes(
     return bits;
 }
 
-/* Bits of the packets that the rectangle of one shape overlaps. */
-static inline unsigned tile_overlaps(
-    const Packets *packets, const Rectangles *rectangles, int lane) {
-    unsigned bits = 0;
-    F a0 = f_of(rectangles->a0[lane]), a1 = f_of(rectangles->a1[lane]),
-      b0 = f_of(rectangles->b0[lane]), b1 = f_of(rectangles->b1[lane]),
-      near = f_of(rectangles->near[lane]);
-    for (int k = 0; k < GI_PACKET_COUNT; k += GI_FLOATS) {
-        bits |= (f_less_equal(a0, f_load(packets->a1 + k)) &
-                    f_less_equal(f_load(packets->a0 + k), a1) &
-                    f_less_equal(b0, f_load(packets->b1 + k)) &
-                    f_less_equal(f_load(packets->b0 + k), b1) &
-                    f_less_equal(near, f_load(packets->far + k)))
-                << k;
-    }
-    return bits;
+/* Bits of the packets that the rectangle of one shape overlaps, nearer than they look. */
+static inline unsigned tile_overlaps(const Packets *packets, const Rectangles *shapes, int lane) {
+    return sixteen_from(shapes->a0[lane], packets->a1) &
+           sixteen_up_to(shapes->a1[lane], packets->a0) &
+           sixteen_from(shapes->b0[lane], packets->b1) &
+           sixteen_up_to(shapes->b1[lane], packets->b0) &
+           sixteen_from(shapes->near[lane], packets->far);
 }
 
-/* Bits of the rays of one packet that the rectangle holds and whose end lies behind its nearest
- * point. */
+/* Bits of the rays of one packet that lie in the rectangle and end behind its nearest point. */
 static inline unsigned tile_rays(
-    const Tile *tile, const Rectangles *rectangles, int lane, int packet) {
-    unsigned bits = 0;
-    F a0 = f_of(rectangles->a0[lane]), a1 = f_of(rectangles->a1[lane]),
-      b0 = f_of(rectangles->b0[lane]), b1 = f_of(rectangles->b1[lane]),
-      near = f_of(rectangles->near[lane]);
-    for (int j = 0; j < GI_PACKET_SIZE; j += GI_FLOATS) {
-        int i = packet * GI_PACKET_SIZE + j;
-        F a = f_load(tile->a + i), b = f_load(tile->b + i);
-        bits |= (f_less_equal(a0, a) & f_less_equal(a, a1) & f_less_equal(b0, b) &
-                    f_less_equal(b, b1) & f_less_equal(near, f_load(tile->far + i)))
-                << j;
-    }
-    return bits & tile->alive[packet];
+    const Tile *tile, const Rectangles *shapes, int lane, int packet) {
+    int i = packet * GI_PACKET_SIZE;
+    return tile->alive[packet] & sixteen_from(shapes->a0[lane], tile->a + i) &
+           sixteen_up_to(shapes->a1[lane], tile->a + i) &
+           sixteen_from(shapes->b0[lane], tile->b + i) &
+           sixteen_up_to(shapes->b1[lane], tile->b + i) &
+           sixteen_from(shapes->near[lane], tile->far + i);
 }
 
 static inline void tile_refresh_far(Tile *tile) {
@@ -344,6 +340,23 @@ static inline void tile_refresh_far(Tile *tile) {
         if (tile->packets.far[k] > far) far = tile->packets.far[k];
     }
     tile->frustum.far = far;
+}
+
+/* Packets without rays left no longer count: the frustum closes round the others. */
+static inline void tile_shrink(Tile *tile) {
+    const Packets *packets = &tile->packets;
+    Frustum *frustum = &tile->frustum;
+    frustum->a0 = frustum->b0 = INFINITY;
+    frustum->a1 = frustum->b1 = -INFINITY;
+    for (int k = 0; k < GI_PACKET_COUNT; k++) {
+        if (tile->alive[k] == 0) continue;
+        frustum->a0 = packets->a0[k] < frustum->a0 ? packets->a0[k] : frustum->a0;
+        frustum->a1 = packets->a1[k] > frustum->a1 ? packets->a1[k] : frustum->a1;
+        frustum->b0 = packets->b0[k] < frustum->b0 ? packets->b0[k] : frustum->b0;
+        frustum->b1 = packets->b1[k] > frustum->b1 ? packets->b1[k] : frustum->b1;
+    }
+    tile_refresh_far(tile);
+    frustum_planes(frustum);
 }
 
 /* ---------------------------------------------------------------- deciding */
@@ -448,6 +461,22 @@ static inline bool tile_test(Tile *tile, GiShapeRef ref, int packet, unsigned ra
 
 /* ---------------------------------------------------------------- the walk */
 
+/* Makes the exact tests that have come together. */
+static inline void tile_flush(Tile *tile) {
+    bool changed = false;
+    for (int i = 0; i < tile->test_count; i++) {
+        const Test *test = &tile->tests[i];
+        unsigned rays = test->rays & tile->alive[test->packet];
+        if (rays != 0) changed |= tile_test(tile, test->shape, (int)test->packet, rays);
+    }
+    tile->test_count = 0;
+    if (changed && tile->any) tile_shrink(tile);
+    if (changed && !tile->any) tile_refresh_far(tile);
+}
+
+/* Notes the tests that a block's shapes need. Which shapes, packets and rays these are cannot be
+ * foretold, so each step writes a list without asking, and the next runs down the list: branches
+ * that go wrong half of the time would cost more than the work. */
 static inline void tile_block(Tile *tile, uint32_t child) {
     const GiTree *tree = tile->trace->tree;
     uint32_t index = child & GI_CHILD_INDEX;
@@ -461,20 +490,24 @@ static inline void tile_block(Tile *tile, uint32_t child) {
         bits = tile_boxes(&tile->frustum, &tree->box_blocks[index], &rectangles);
         shapes = tree->box_blocks[index].shape;
     }
-    for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
-        prefetch_shape(tile->trace->shapes, shapes[lowest_bit(rest)]);
-    }
-    bool changed = false;
+    uint32_t pairs[GI_TREE_WIDTH * GI_PACKET_COUNT];
+    int pair_count = 0;
     for (; bits != 0; bits &= bits - 1) {
         int lane = lowest_bit(bits);
-        unsigned overlapped = tile_overlaps(&tile->packets, &rectangles, lane);
-        for (; overlapped != 0; overlapped &= overlapped - 1) {
-            int packet = lowest_bit(overlapped);
-            unsigned rays = tile_rays(tile, &rectangles, lane, packet);
-            if (rays != 0) changed |= tile_test(tile, shapes[lane], packet, rays);
-        }
+        unsigned packets = tile_overlaps(&tile->packets, &rectangles, lane);
+        pair_count += sixteen_append(pairs + pair_count, packets, (uint32_t)lane << 4);
     }
-    if (changed) tile_refresh_far(tile);
+    int count = tile->test_count;
+    for (int i = 0; i < pair_count; i++) {
+        int lane = (int)(pairs[i] >> 4);
+        uint32_t packet = pairs[i] & 15;
+        unsigned rays = tile_rays(tile, &rectangles, lane, (int)packet);
+        prefetch_shape(tile->trace->shapes, shapes[lane]);
+        tile->tests[count] = (Test){shapes[lane], packet, rays};
+        count += rays != 0;
+    }
+    tile->test_count = count;
+    if (count >= TEST_BATCH) tile_flush(tile);
 }
 
 static inline void tile_walk(Tile *tile) {
@@ -501,6 +534,7 @@ static inline void tile_walk(Tile *tile) {
             count = push_children(tree, stack, count, node->child, bits, enter);
         }
     }
+    tile_flush(tile);
 }
 
 static inline GiTraceRay bundle_ray(const GiBundle *bundle, int i) {
@@ -523,6 +557,7 @@ static inline void bundle_trace(const GiTrace *trace, GiBundle *bundle, bool any
     tile.bundle = bundle;
     tile.any = any;
     tile.scale = trace->tree->scale;
+    tile.test_count = 0;
     for (int i = 0; i < GI_BUNDLE_SIZE / 32; i++) tile.inverse_known[i] = 0;
     for (int i = 0; i < GI_BUNDLE_SIZE; i++) bundle->shape[i] = GI_SHAPE_NONE;
     GiVec u, v, w;

@@ -87,6 +87,47 @@ static inline F f_sqrt(F a) { return sqrtf(a); }
 static inline unsigned f_less_equal(F a, F b) { return a <= b; }
 #endif
 
+/* Sixteen numbers against one: bits of those where x <= p[i], and where p[i] <= x. */
+#if defined(GI_IS_AVX512)
+static inline unsigned sixteen_from(float x, const float p[16]) {
+    return _mm512_cmp_ps_mask(_mm512_set1_ps(x), _mm512_loadu_ps(p), _CMP_LE_OQ);
+}
+static inline unsigned sixteen_up_to(float x, const float p[16]) {
+    return _mm512_cmp_ps_mask(_mm512_loadu_ps(p), _mm512_set1_ps(x), _CMP_LE_OQ);
+}
+#else
+static inline unsigned sixteen_from(float x, const float p[16]) {
+    unsigned bits = 0;
+    for (int i = 0; i < 16; i += GI_FLOATS) bits |= f_less_equal(f_of(x), f_load(p + i)) << i;
+    return bits;
+}
+static inline unsigned sixteen_up_to(float x, const float p[16]) {
+    unsigned bits = 0;
+    for (int i = 0; i < 16; i += GI_FLOATS) bits |= f_less_equal(f_load(p + i), f_of(x)) << i;
+    return bits;
+}
+#endif
+
+/* Writes base + i for every bit i of sixteen, in order, and returns how many. There must be room
+ * for sixteen. */
+static inline int sixteen_append(uint32_t *to, unsigned bits, uint32_t base) {
+#if defined(GI_IS_AVX512)
+    const __m512i count =
+        _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    __m512i all = _mm512_add_epi32(count, _mm512_set1_epi32((int)base));
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, all));
+    return _mm_popcnt_u32(bits);
+#else
+    int count = 0;
+    for (; bits != 0; bits &= bits - 1) {
+        uint32_t i = 0;
+        while (!(bits >> i & 1)) i++;
+        to[count++] = base + i;
+    }
+    return count;
+#endif
+}
+
 /* ---------------------------------------------------------------- doubles: deciding */
 
 #if defined(GI_IS_AVX512)

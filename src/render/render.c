@@ -63,8 +63,8 @@ GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *ar
     render.scratch = gi_memory_allocate(memory, scratch_size);
     render.counts = gi_memory_allocate(memory, counts_size);
     GlintStatus status = GLINT_ERROR_MEMORY;
+    if (render.scratch != NULL) memset(render.scratch, 0, scratch_size);
     if (render.scratch == NULL || render.counts == NULL) goto done;
-    memset(render.scratch, 0, scratch_size);
     memset(render.counts, 0, counts_size);
     for (size_t i = 0; i < workers; i++) {
         render.scratch[i] = gi_tile_scratch_create(memory);

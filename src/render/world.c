@@ -90,6 +90,13 @@ static GlintStatus spread_groups(
 
 /* ---------------------------------------------------------------- commit */
 
+/* Before and after the build, which itself asks only where it is large. False: to stop. */
+static bool report(const GlintMonitor *monitor, double fraction) {
+    if (monitor == NULL) return true;
+    if (monitor->progress != NULL) monitor->progress(monitor->user, GLINT_PHASE_BUILD, fraction);
+    return monitor->cancelled == NULL || !monitor->cancelled(monitor->user);
+}
+
 static void point_shapes(GiWorld *world, const GiScene *scene) {
     world->shapes = (GiShapes){
         .spheres = scene->spheres.data,
@@ -112,6 +119,7 @@ GlintStatus gi_world_commit(GiWorld *world, GiScene *scene, const GiKernel *kern
     world->scene = scene;
     world->rules = gi_dialect_rules(scene->dialect);
     world->kernel = kernel;
+    if (!report(monitor, 0)) return gi_error_set(error, GLINT_CANCELLED, "cancelled");
     for (size_t i = 0; i < scene->shaders.count; i++) {
         GiShader *shader = &scene->shaders.data[i];
         double diffuse = world->rules->default_diffuse;
@@ -134,6 +142,7 @@ GlintStatus gi_world_commit(GiWorld *world, GiScene *scene, const GiKernel *kern
         return status == GLINT_ERROR_MEMORY ? gi_error_memory(error)
                                             : gi_error_set(error, status, "cancelled");
     }
+    if (!report(monitor, 1)) return gi_error_set(error, GLINT_CANCELLED, "cancelled");
     gi_array_free(scene->memory, &world->refs);
     gi_array_free(scene->memory, &scene->roots);
     gi_reorder(scene, &world->store, world->placements.data, world->placements.count);
