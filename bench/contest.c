@@ -13,17 +13,24 @@ static bool is_glint(Program program) {
     return program == PROGRAM_GLINT || program == PROGRAM_OTHER_GLINT;
 }
 
+/* Told at once, and again by the status in the end: hours of measuring are not thrown away. */
+static void complain(Contest *contest, const char *who, const char *what) {
+    fprintf(stderr, "glint-bench: %s: WRONG: %s %s\n", contest->scene.name, who, what);
+    contest->fault_count++;
+}
+
 /* The picture of the first round is linear float, which says most; those of the others are what
- * users write, and must be equal byte by byte. */
-static void check_picture(
-    const BenchScene *scene, Program program, Entry *entry, const char *picture, bool warm_up) {
-    uint64_t hash = picture_hash(picture),
-             *known = warm_up ? &entry->pixel_hash : &entry->file_hash;
-    if (*known != 0 && *known != hash) {
-        message_fail(
-            "%s: %s drew two different pictures", scene->name, contest_program_name(program));
-    }
-    *known = hash;
+ * users write, and must be equal byte by byte. One that differs is kept for a closer look. */
+static void check_picture(Contest *contest, const Command *command, bool warm_up, Entry *entry) {
+    uint64_t hash = picture_hash(command->picture);
+    uint64_t *known = warm_up ? &entry->pixel_hash : &entry->file_hash;
+    if (*known == 0) *known = hash;
+    if (*known == hash) return;
+    char kept[PATH_SIZE];
+    message_format(kept, sizeof kept, "%s.wrong.png", command->picture);
+    bool good = rename(command->picture, kept) == 0;
+    complain(contest, command->arguments[0], "drew another file than the run before");
+    fprintf(stderr, "  kept as %s\n", good ? kept : "nothing");
 }
 
 static void run_once(const Field *field, Contest *contest, Program program, int threads, int rep) {
@@ -42,7 +49,7 @@ static void run_once(const Field *field, Contest *contest, Program program, int 
         return;
     }
     if (is_glint(program)) {
-        check_picture(&contest->scene, program, entry, command.picture, warm_up);
+        check_picture(contest, &command, warm_up, entry);
     }
     if (warm_up) return;
     entry->values[MEASURE_WALL][rep] = result.wall_seconds;
@@ -57,13 +64,15 @@ static void compare_pictures(Contest *contest) {
     for (int program = PROGRAM_GLINT; program <= PROGRAM_OTHER_GLINT; program++) {
         const Entry *one = &contest->entries[program][0], *two = &contest->entries[program][1];
         if (one->pixel_hash != two->pixel_hash || one->file_hash != two->file_hash) {
-            message_fail("%s: %s draws different pictures with one and with two threads",
-                contest->scene.name, contest_program_name((Program)program));
+            complain(contest, contest_program_name((Program)program),
+                "draws different pictures with one and with two threads");
         }
     }
     const Entry *ours = contest->entries[PROGRAM_GLINT];
     const Entry *others = contest->entries[PROGRAM_OTHER_GLINT];
-    contest->pictures_differ = others->rep_count > 0 && ours->pixel_hash != others->pixel_hash;
+    if (others->rep_count > 0 && ours->pixel_hash != others->pixel_hash) {
+        complain(contest, contest_program_name(PROGRAM_OTHER_GLINT), "draws another picture");
+    }
 }
 
 void contest_run(const Field *field, const BenchScene *scene, Contest *contest) {

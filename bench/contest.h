@@ -49,14 +49,15 @@ typedef struct Entry {
 typedef struct Contest {
     BenchScene scene;
     uint64_t surface_count;
-    bool pictures_differ; /* between the two Glints */
+    int fault_count; /* pictures that are not the same although they should be */
     Entry entries[PROGRAM_COUNT][THREADS_MAX];
 } Contest;
 
 /* "glint", "tachyon", "povray +BM1", ... */
 const char *contest_program_name(Program program);
 
-/* Fills the contest. Pictures of the same Glint that differ end the program. */
+/* Fills the contest. Every Glint run has to draw the same picture; each that does not is told on
+ * standard error. A Glint that fails ends the program, a peer only leaves the contest. */
 void contest_run(const Field *field, const BenchScene *scene, Contest *contest);
 
 /* The entry with the shortest median among the program's relatives (POV-Ray has two trees). Null:

@@ -36,10 +36,15 @@ static void print_entry(const Contest *contest, Program program, int threads) {
     char range[48];
     snprintf(range, sizeof range, "(%.1f-%.1f)", 1e3 * spreads[MEASURE_WALL].least,
         1e3 * spreads[MEASURE_WALL].most);
-    printf("  %-12s %d %10.1f %-19s %10.1f %8.1f %7.0f", contest_program_name(program), threads,
+    printf("  %-12s %d %10.1f %-19s %10.1f %8.1f", contest_program_name(program), threads,
         1e3 * spreads[MEASURE_WALL].median, range, 1e3 * spreads[MEASURE_CPU].median,
-        spreads[MEASURE_PEAK].median / 1048576,
-        spreads[MEASURE_PEAK].median / (double)contest->surface_count);
+        spreads[MEASURE_PEAK].median / 1048576);
+    /* Of a small scene the program and the picture would be most of it. */
+    if (contest->surface_count >= 100000) {
+        printf(" %7.0f", spreads[MEASURE_PEAK].median / (double)contest->surface_count);
+    } else {
+        printf(" %7s", "-");
+    }
     if (program <= PROGRAM_OTHER_GLINT) {
         printf(" %8.0f %8.2f %8.2f %8.1f", 1e-6 * spreads[MEASURE_READ].median,
             1e-6 * spreads[MEASURE_BUILD].median, 1e-6 * spreads[MEASURE_TRACE].median,
@@ -66,7 +71,7 @@ void report_scene(const Contest *contest) {
                 rival_names[rival], two);
         }
     }
-    if (contest->pictures_differ) printf("  THE OTHER GLINT DRAWS ANOTHER PICTURE\n");
+    if (contest->fault_count > 0) printf("  WRONG PICTURES: %d\n", contest->fault_count);
     fflush(stdout);
 }
 

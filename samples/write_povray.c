@@ -4,7 +4,10 @@
  * Its camera is left-handed by default, but has the handedness of the vectors that it is given:
  * right and up are spelled out here. Colours are linear with assumed_gamma 1 in the scene and
  * File_Gamma=1.0 on the command line. specular with roughness 1 / e is Blinn's highlight with the
- * exponent e. */
+ * exponent e.
+ *
+ * Held against Glint's picture, 1024 x 1024, 8 bits linear: 0.22 of a step apart in the mean, which
+ * is the rounding; 10,000 spheres: no pixel by more than 1 step; 10,000 solids: one pixel. */
 #include "samples/write.h"
 
 #include <math.h>

@@ -18,7 +18,10 @@
 #define DECLARE(room) extern const GiTest tests_##room[];
 ROOMS(DECLARE)
 
-static const struct { const char *room; const GiTest *tests; } rooms[] = {
+static const struct {
+    const char *room;
+    const GiTest *tests;
+} rooms[] = {
 #define ENTRY(room) {#room, tests_##room},
     ROOMS(ENTRY)};
 
@@ -44,7 +47,8 @@ void test_skip(const char *reason) { skip_reason = reason; }
 void test_check_text(
     const char *file, int line, const char *what, const char *actual, const char *expected) {
     if (actual == NULL || strcmp(actual, expected) != 0) {
-        test_fail(file, line, "%s is \"%s\", not \"%s\"", what, actual ? actual : "(null)", expected);
+        test_fail(
+            file, line, "%s is \"%s\", not \"%s\"", what, actual ? actual : "(null)", expected);
     }
 }
 

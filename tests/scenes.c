@@ -31,8 +31,7 @@ GlintScene *scene_from_text(const char *xml, const char *isa, int thread_count) 
     GlintScene *scene = create(isa, thread_count);
     if (scene == NULL) return NULL;
     GlintError error = {0};
-    GlintStatus status =
-        glint_scene_load_memory(scene, xml, strlen(xml), "test.xml", NULL, &error);
+    GlintStatus status = glint_scene_load_memory(scene, xml, strlen(xml), "test.xml", NULL, &error);
     return commit(scene, status, &error);
 }
 

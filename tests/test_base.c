@@ -177,6 +177,13 @@ static void arrays(void) {
     gi_array_free(&memory, &numbers);
     gi_array_free(&memory, &numbers);
     CHECK_INT(atomic_load(&memory.used), 0);
+    /* Also where no limit helps. */
+    gi_memory_init(&memory, NULL, 0);
+    CHECK(gi_array_push(&memory, &numbers, 1));
+    CHECK(!gi_array_reserve(&memory, &numbers, SIZE_MAX));
+    CHECK(!gi_array_reserve(&memory, &numbers, SIZE_MAX / 2));
+    CHECK_INT(numbers.capacity, 8);
+    gi_array_free(&memory, &numbers);
 }
 
 static void errors(void) {

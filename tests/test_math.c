@@ -19,8 +19,7 @@ static void check_power(double base, double exponent) {
     long double expected = powl((long double)base, (long double)exponent);
     double power = gi_pow(base, exponent);
     bool whole = exponent >= 0 && exponent <= 1024 && floor(exponent) == exponent;
-    double promise = whole ? 2e-16 * exponent
-                           : 4e-15 * (1 + fabs(exponent * log2(base)) / 16);
+    double promise = whole ? 2e-16 * exponent : 4e-15 * (1 + fabs(exponent * log2(base)) / 16);
     bool good;
     if (expected > (long double)DBL_MAX * (1 + promise)) {
         good = power == INFINITY;
@@ -188,12 +187,12 @@ static void maps_singular(void) {
     GiAffine bad[12];
     for (int i = 0; i < 12; i++) bad[i] = gi_affine_rotate_degrees(gi_vec(20, 30, 40));
     for (int j = 0; j < 3; j++) {
-        bad[0].m[1][j] = 0;                             /* a row of zeros */
-        bad[1].m[2][j] = bad[1].m[0][j];                /* two rows alike */
+        bad[0].m[1][j] = 0;              /* a row of zeros */
+        bad[1].m[2][j] = bad[1].m[0][j]; /* two rows alike */
         bad[2].m[2][j] = bad[2].m[0][j] + bad[2].m[1][j];
-        bad[3].m[j][1] = 0;                             /* a column of zeros */
+        bad[3].m[j][1] = 0; /* a column of zeros */
         bad[4].m[j][2] = 3 * bad[4].m[j][0];
-        bad[5].m[0][j] = 1e-320;                        /* an inverse out of range */
+        bad[5].m[0][j] = 1e-320; /* an inverse out of range */
         bad[6].m[j][0] = bad[6].m[j][1] = bad[6].m[j][2] = 0;
         bad[7].m[2][j] = bad[7].m[0][j] * (1 + 1e-16);
     }
@@ -227,8 +226,9 @@ static void maps_rotate(void) {
         check_vec(gi_affine_point(&a, p), turn(p, angles), 4e-15);
     }
     /* Quarter turns move axes onto axes without rounding. */
-    static const struct { GiVec angles, from, to; } quarter[] = {
-        {{90, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 90, 0}, {0, 0, 1}, {1, 0, 0}},
+    static const struct {
+        GiVec angles, from, to;
+    } quarter[] = {{{90, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 90, 0}, {0, 0, 1}, {1, 0, 0}},
         {{0, 0, 90}, {1, 0, 0}, {0, 1, 0}}, {{90, 90, 0}, {0, 1, 0}, {1, 0, 0}},
         {{90, 0, 90}, {1, 0, 0}, {0, 1, 0}}, {{180, 0, 0}, {1, 2, 3}, {1, -2, -3}},
         {{-90, 0, 0}, {0, 1, 0}, {0, 0, -1}}, {{360, -720, 360}, {1, 2, 3}, {1, 2, 3}}};
@@ -253,15 +253,18 @@ static void vectors_normalize(void) {
             long double length = sqrtl((long double)direction.x * direction.x +
                                        (long double)direction.y * direction.y +
                                        (long double)direction.z * direction.z);
-            check_vec(n, gi_vec((double)(direction.x / length), (double)(direction.y / length),
-                             (double)(direction.z / length)), 4e-16);
+            check_vec(n,
+                gi_vec((double)(direction.x / length), (double)(direction.y / length),
+                    (double)(direction.z / length)),
+                4e-16);
         }
     }
     check_vec(gi_normalize(gi_vec(0, 0, 0)), gi_vec(0, 0, 0), 0);
     check_vec(gi_normalize(gi_vec(0, 0, 0x1p-1074)), gi_vec(0, 0, 1), 0);
     check_vec(gi_normalize(gi_vec(0, -DBL_MAX, 0)), gi_vec(0, -1, 0), 0);
     double third = 0.57735026918962584;
-    check_vec(gi_normalize(gi_vec(DBL_MAX, DBL_MAX, -DBL_MAX)), gi_vec(third, third, -third), 2e-16);
+    check_vec(
+        gi_normalize(gi_vec(DBL_MAX, DBL_MAX, -DBL_MAX)), gi_vec(third, third, -third), 2e-16);
     check_vec(gi_normalize(gi_vec(3, 0, -4)), gi_vec(0.6, 0, -0.8), 2e-16);
 }
 
@@ -277,7 +280,8 @@ static void vectors_products(void) {
     check_vec(gi_cross(gi_vec(1, 0, 0), gi_vec(0, 1, 0)), gi_vec(0, 0, 1), 0);
     check_vec(gi_along(gi_vec(1, 2, 3), gi_vec(2, 0, -1), 3), gi_vec(7, 2, 0), 0);
     check_vec(gi_multiply(gi_vec(1, 2, 3), gi_vec(4, 5, 6)), gi_vec(4, 10, 18), 0);
-    check_vec(gi_sub(gi_add(gi_vec(1, 2, 3), gi_vec(4, 5, 6)), gi_vec(4, 5, 6)), gi_vec(1, 2, 3), 0);
+    check_vec(
+        gi_sub(gi_add(gi_vec(1, 2, 3), gi_vec(4, 5, 6)), gi_vec(4, 5, 6)), gi_vec(1, 2, 3), 0);
 }
 
 const GiTest tests_math[] = {TEST(power_random), TEST(power_edges), TEST(sine_and_cosine),
