@@ -36,8 +36,8 @@ struct GiDeflater {
 GiDeflater *gi_deflate_create(GiMemory *memory) {
     GiDeflater *deflater = gi_memory_allocate(memory, sizeof *deflater);
     if (deflater == NULL) return NULL;
+    memset(deflater, 0, sizeof *deflater);
     deflater->memory = memory;
-    memset(&deflater->stream, 0, sizeof deflater->stream);
     return deflater;
 }
 
