@@ -367,8 +367,7 @@ static bool add_shape(GiScene *model, const GlintSurfaceDesc *desc, GiShapeRef *
     GiVec center = gi_vec_from(desc->center), normal = gi_vec_from(desc->normal);
     uint32_t shader = desc->shader.index1;
     switch (desc->type) {
-    case GLINT_SURFACE_SPHERE:
-        return gi_scene_add_sphere(model, center, desc->radius, shader, ref);
+    case GLINT_SURFACE_SPHERE: return gi_scene_add_sphere(model, center, desc->radius, shader, ref);
     case GLINT_SURFACE_BOX:
         return gi_scene_add_box(
             model, gi_vec_from(desc->point_a), gi_vec_from(desc->point_b), shader, ref);
@@ -407,8 +406,8 @@ GlintStatus glint_scene_add_surface(
     } else if (!add_shape(model, desc, &ref)) {
         return gi_error_memory(error);
     }
-    uint32_t parent = desc->parent.index1 == 0 ? GI_SHAPE_NONE
-                                               : desc->parent.index1 & (GI_SHAPE_INDEX_LIMIT - 1);
+    uint32_t parent =
+        desc->parent.index1 == 0 ? GI_SHAPE_NONE : desc->parent.index1 & (GI_SHAPE_INDEX_LIMIT - 1);
     if (!gi_scene_place(model, parent, ref)) return gi_error_memory(error);
     if (id != NULL) id->index1 = number;
     return GLINT_OK;
@@ -416,8 +415,7 @@ GlintStatus glint_scene_add_surface(
 
 /* ---------------------------------------------------------------- commit, render, trace */
 
-GlintStatus glint_scene_commit(
-    GlintScene *scene, const GlintMonitor *monitor, GlintError *error) {
+GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, GlintError *error) {
     if (scene == NULL) return ARGUMENT(error, "scene is null");
     if (scene->committed) return ARGUMENT(error, "the scene is committed already");
     if (scene->broken) return ARGUMENT(error, "the scene failed to load");
@@ -505,7 +503,8 @@ GlintStatus glint_render(
     scene->stats.trace_seconds = gi_machine_seconds() - start;
     scene->stats.camera_rays = counts.camera_rays;
     scene->stats.shadow_rays = counts.shadow_rays;
-    return status == GLINT_OK ? status : gi_error_set(error, status, "%s", glint_status_text(status));
+    return status == GLINT_OK ? status
+                              : gi_error_set(error, status, "%s", glint_status_text(status));
 }
 
 static GiTraceRay trace_ray(const GlintRay *ray) {

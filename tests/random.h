@@ -6,7 +6,9 @@
 
 #include <stdint.h>
 
-typedef struct Random { uint64_t state; } Random;
+typedef struct Random {
+    uint64_t state;
+} Random;
 
 static inline uint64_t random_bits(Random *random) {
     uint64_t z = random->state += 0x9e3779b97f4a7c15u;

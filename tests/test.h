@@ -12,8 +12,10 @@ typedef struct GiTest {
 } GiTest;
 
 /* test_<room>.c ends with: const GiTest tests_<room>[] = {TEST(name), ..., TEST_END}; */
-#define TEST(function) {#function, function}
-#define TEST_END       {NULL, NULL}
+#define TEST(function)                                                                             \
+    { #function, function }
+#define TEST_END                                                                                   \
+    { NULL, NULL }
 
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
@@ -45,8 +47,7 @@ const char *test_scratch_dir(void);
     do {                                                                                           \
         double actual_ = (actual), expected_ = (expected);                                         \
         if (!(actual_ - expected_ <= (tolerance) && expected_ - actual_ <= (tolerance))) {         \
-            test_fail(                                                                             \
-                __FILE__, __LINE__, "%s is %.17g, not %.17g", #actual, actual_, expected_);        \
+            test_fail(__FILE__, __LINE__, "%s is %.17g, not %.17g", #actual, actual_, expected_);  \
         }                                                                                          \
     } while (0)
 

@@ -22,8 +22,8 @@ typedef struct Fixture {
 } Fixture;
 
 /* A scene of `count` shapes in a cube of the given size at `at`; sizes spread over `range`. */
-static void add_shapes(
-    GiScene *scene, Random *random, int count, GiVec at, double size, double range, uint32_t group) {
+static void add_shapes(GiScene *scene, Random *random, int count, GiVec at, double size,
+    double range, uint32_t group) {
     for (int i = 0; i < count; i++) {
         GiVec center = gi_add(at, random_vec(random, -size, size));
         double radius = size * 0.2 * gi_hit_maximum(pow(random_real(random, 0, 1), 8), 1 / range);
@@ -66,7 +66,8 @@ static void fixture_commit(Fixture *fixture, const GiKernel *kernel) {
     scene->width = scene->height = 16;
     GlintError error;
     CHECK_INT(gi_pool_create(&fixture->memory, 2, &fixture->pool), GLINT_OK);
-    CHECK_INT(gi_world_commit(&fixture->world, scene, kernel, fixture->pool, NULL, &error), GLINT_OK);
+    CHECK_INT(
+        gi_world_commit(&fixture->world, scene, kernel, fixture->pool, NULL, &error), GLINT_OK);
     /* The order of brute force does not matter: ties go by document order. */
     const GiTree *tree = &fixture->world.store.tree;
     size_t capacity = fixture->world.primitive_count + 8;
@@ -108,13 +109,14 @@ static void fixture_end(Fixture *fixture) {
 
 static bool brute_force(const Fixture *fixture, const GiTraceRay *r, GiTraceHit *hit) {
     const GiShapes *shapes = &fixture->world.shapes;
-    gi_hit_Ray ray = gi_hit_ray(r->origin.x, r->origin.y, r->origin.z, r->direction.x,
-        r->direction.y, r->direction.z);
+    gi_hit_Ray ray = gi_hit_ray(
+        r->origin.x, r->origin.y, r->origin.z, r->direction.x, r->direction.y, r->direction.z);
     *hit = (GiTraceHit){INFINITY, {GI_SHAPE_NONE}};
     for (size_t i = 0; i < fixture->count; i++) {
         double t;
         GiShapeRef ref = fixture->refs[i];
-        if (ref.bits == r->skip || !gi_hit_shape(shapes, ref, &ray, r->t_min, r->t_max, &t)) continue;
+        if (ref.bits == r->skip || !gi_hit_shape(shapes, ref, &ray, r->t_min, r->t_max, &t))
+            continue;
         if (t < hit->t || (t == hit->t && gi_shape_before(shapes, ref, hit->shape))) {
             *hit = (GiTraceHit){t, ref};
         }
@@ -133,12 +135,8 @@ static GiTraceRay random_ray(const Fixture *fixture, Random *random, GiVec at, d
         ray.origin = gi_vec(floor(ray.origin.x), floor(ray.origin.y), floor(ray.origin.z));
         ray.direction = gi_vec(0, 0, random_below(random, 2) ? 1 : -1);
         break;
-    case 1: /* in a coordinate plane */
-        ray.direction.y = 0;
-        break;
-    case 2: /* almost along an axis */
-        ray.direction = gi_vec(1e-20, 1, -1e-9);
-        break;
+    case 1: /* in a coordinate plane */ ray.direction.y = 0; break;
+    case 2: /* almost along an axis */ ray.direction = gi_vec(1e-20, 1, -1e-9); break;
     case 3: { /* starts on a surface, or inside of it */
         GiTraceHit hit;
         if (brute_force(fixture, &ray, &hit)) {
@@ -170,9 +168,8 @@ static void compare_single(
     GiTraceHit expected, found = {0};
     bool hits = brute_force(fixture, ray, &expected);
     bool found_any = kernel->closest(&fixture->world.trace, ray, &found);
-    if (found_any != hits ||
-        (hits && (memcmp(&found.t, &expected.t, sizeof found.t) != 0 ||
-                     found.shape.bits != expected.shape.bits))) {
+    if (found_any != hits || (hits && (memcmp(&found.t, &expected.t, sizeof found.t) != 0 ||
+                                          found.shape.bits != expected.shape.bits))) {
         if (wrong++ < 3) {
             test_fail(__FILE__, __LINE__,
                 "%s, %s: ray (%g %g %g) + t (%g %g %g): shape %x at %.17g, not %x at %.17g", what,
@@ -388,5 +385,5 @@ static void names(void) {
 }
 
 const GiTest tests_kernel[] = {TEST(names), TEST(empty_scene), TEST(few_shapes), TEST(many_shapes),
-    TEST(interior_rule), TEST(large_range), TEST(far_away), TEST(extreme_scales),
-    TEST(one_outlier), TEST(groups), TEST(coincident), TEST(deep_tree), TEST_END};
+    TEST(interior_rule), TEST(large_range), TEST(far_away), TEST(extreme_scales), TEST(one_outlier),
+    TEST(groups), TEST(coincident), TEST(deep_tree), TEST_END};

@@ -160,18 +160,22 @@ GLINT_API const char *glint_version_text(void);
 
 typedef struct GlintScene GlintScene;
 
-typedef struct GlintShaderId { uint32_t index1; } GlintShaderId;   /* zero: the default shader */
-typedef struct GlintSurfaceId { uint32_t index1; } GlintSurfaceId; /* zero: none */
+typedef struct GlintShaderId {
+    uint32_t index1;
+} GlintShaderId; /* zero: the default shader */
+typedef struct GlintSurfaceId {
+    uint32_t index1;
+} GlintSurfaceId; /* zero: none */
 
 typedef struct GlintSceneDesc {
-    GlintDialect dialect;             /* default AUTO; any other value overrides the file's */
-    int thread_count;                 /* 0 (default): one per core; 1: only the caller's thread */
-    const char *isa;                  /* null (default): the fastest; or a glint_isa_name */
-    size_t memory_limit;              /* bytes; 0 (default): nine tenths of the machine's */
-    const GlintAllocator *allocator;  /* null (default): the C library's; copied */
-    GlintDiagnosticFn diagnostic;     /* null (default): findings go only to GlintError */
+    GlintDialect dialect;            /* default AUTO; any other value overrides the file's */
+    int thread_count;                /* 0 (default): one per core; 1: only the caller's thread */
+    const char *isa;                 /* null (default): the fastest; or a glint_isa_name */
+    size_t memory_limit;             /* bytes; 0 (default): nine tenths of the machine's */
+    const GlintAllocator *allocator; /* null (default): the C library's; copied */
+    GlintDiagnosticFn diagnostic;    /* null (default): findings go only to GlintError */
     void *diagnostic_user;
-    int cookie;                       /* private */
+    int cookie; /* private */
 } GlintSceneDesc;
 
 GLINT_API GlintSceneDesc glint_scene_desc_default(void);
@@ -276,16 +280,16 @@ typedef enum GlintSurfaceType {
 
 typedef struct GlintSurfaceDesc {
     GlintSurfaceType type;
-    GlintShaderId shader;    /* zero: Lambertian with all defaults; a group has none */
-    GlintSurfaceId parent;   /* the group it belongs to; zero: the scene */
-    double center[3];        /* 0 0 0 */
-    double radius;           /* > 0; 1 */
-    double height;           /* > 0; 1 */
-    double tip_z;            /* z of the apex; not center[2]; 0 */
-    double point_a[3];       /* 0 0 0 */
-    double point_b[3];       /* 0 0 0 */
-    double normal[3];        /* 0 0 1; any length but zero */
-    double transform[3][4];  /* group: rows of an invertible affine matrix; identity */
+    GlintShaderId shader;   /* zero: Lambertian with all defaults; a group has none */
+    GlintSurfaceId parent;  /* the group it belongs to; zero: the scene */
+    double center[3];       /* 0 0 0 */
+    double radius;          /* > 0; 1 */
+    double height;          /* > 0; 1 */
+    double tip_z;           /* z of the apex; not center[2]; 0 */
+    double point_a[3];      /* 0 0 0 */
+    double point_b[3];      /* 0 0 0 */
+    double normal[3];       /* 0 0 1; any length but zero */
+    double transform[3][4]; /* group: rows of an invertible affine matrix; identity */
     int cookie;
 } GlintSurfaceDesc;
 
@@ -326,10 +330,10 @@ typedef struct GlintSceneInfo {
 GLINT_API void glint_scene_info(const GlintScene *scene, GlintSceneInfo *info);
 
 typedef struct GlintRenderDesc {
-    int width, height;               /* 0 (default): the scene's */
-    int crop_x, crop_y;              /* top left corner of the part to draw; 0 */
-    int crop_width, crop_height;     /* 0 (default): all that is right of and below the corner */
-    const GlintMonitor *monitor;     /* null */
+    int width, height;           /* 0 (default): the scene's */
+    int crop_x, crop_y;          /* top left corner of the part to draw; 0 */
+    int crop_width, crop_height; /* 0 (default): all that is right of and below the corner */
+    const GlintMonitor *monitor; /* null */
     int cookie;
 } GlintRenderDesc;
 
@@ -343,8 +347,8 @@ GLINT_API GlintStatus glint_render(
 
 typedef struct GlintRay {
     double origin[3];
-    double direction[3];   /* any length but zero; t counts in this length */
-    double t_min, t_max;   /* open interval; t_max may be INFINITY */
+    double direction[3]; /* any length but zero; t counts in this length */
+    double t_min, t_max; /* open interval; t_max may be INFINITY */
 } GlintRay;
 
 typedef struct GlintHit {

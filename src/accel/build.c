@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * Top down. A node's items are split at the best of 3 x 15 planes (fewer for few items) between 16 bins of their centres.
- * Large subtrees become tasks for other workers; below TASK_SIZE a worker finishes alone with a
- * stack of its own, always putting off the larger half, so that the stack stays short. */
+ * Top down. A node's items are split at the best of 3 x 15 planes (fewer for few items) between 16
+ * bins of their centres. Large subtrees become tasks for other workers; below TASK_SIZE a worker
+ * finishes alone with a stack of its own, always putting off the larger half, so that the stack
+ * stays short. */
 #include "accel/build.h"
 
 #include "math/four.h"
@@ -36,11 +37,11 @@ typedef struct Build {
 } Build;
 
 /* A box; the fourth lane holds nothing of use. */
-typedef struct Bounds { GiFour low, high; } Bounds;
+typedef struct Bounds {
+    GiFour low, high;
+} Bounds;
 
-static inline Bounds empty_bounds(void) {
-    return (Bounds){gi_four(INFINITY), gi_four(-INFINITY)};
-}
+static inline Bounds empty_bounds(void) { return (Bounds){gi_four(INFINITY), gi_four(-INFINITY)}; }
 
 static inline void grow(Bounds *bounds, GiFour low, GiFour high) {
     bounds->low = gi_four_min(bounds->low, low);
@@ -215,8 +216,8 @@ static void run_task(GiTasks *tasks, void *context, const void *task, int worker
             const GlintMonitor *monitor = build->monitor;
             size_t done = atomic_load_explicit(&build->done, memory_order_relaxed);
             if (monitor->progress != NULL) {
-                monitor->progress(monitor->user, GLINT_PHASE_BUILD,
-                    0.9 * (double)done / (double)build->count);
+                monitor->progress(
+                    monitor->user, GLINT_PHASE_BUILD, 0.9 * (double)done / (double)build->count);
             }
             if (monitor->cancelled != NULL && monitor->cancelled(monitor->user)) {
                 atomic_store(&build->stop, true);

@@ -10,7 +10,9 @@
 
 /* One thing to be put into the tree: its box, and in the fourth lanes its id (bits of a uint32_t)
  * and nothing. */
-typedef struct GiBuildItem { float low[4], high[4]; } GiBuildItem;
+typedef struct GiBuildItem {
+    float low[4], high[4];
+} GiBuildItem;
 
 static inline uint32_t gi_build_id(const GiBuildItem *item) {
     uint32_t id;

@@ -102,7 +102,8 @@ static uint32_t emit_spheres(Layout *layout, const GiBuildNode *leaf) {
     GiSphereBlock *block = &layout->store->sphere_blocks[tree->sphere_block_count];
     for (uint32_t i = 0; i < GI_TREE_WIDTH; i++) {
         if (i >= leaf->count) {
-            block->center[0][i] = block->center[1][i] = block->center[2][i] = block->radius[i] = NAN;
+            block->center[0][i] = block->center[1][i] = block->center[2][i] = block->radius[i] =
+                NAN;
             block->shape[i].bits = GI_SHAPE_NONE;
             continue;
         }
@@ -196,8 +197,7 @@ static GlintStatus lay_out(GiMemory *memory, const GiShapes *shapes, const GiBui
     store->node_capacity = binary->node_count - leaves;
     store->sphere_block_capacity = sphere_leaves;
     store->box_block_capacity = leaves - sphere_leaves;
-    store->nodes =
-        gi_memory_allocate_lines(memory, store->node_capacity, sizeof *store->nodes);
+    store->nodes = gi_memory_allocate_lines(memory, store->node_capacity, sizeof *store->nodes);
     store->sphere_blocks = gi_memory_allocate_lines(
         memory, store->sphere_block_capacity, sizeof *store->sphere_blocks);
     store->box_blocks =

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static GlintStatus set(
-    GlintError *error, GlintStatus status, const char *path, const char *format, va_list arguments) {
+static GlintStatus set(GlintError *error, GlintStatus status, const char *path, const char *format,
+    va_list arguments) {
     if (error == NULL) return status;
     memset(error, 0, sizeof *error);
     error->status = status;

@@ -8,7 +8,7 @@
 typedef struct GiView {
     bool parallel;
     GiVec eye;
-    GiVec center; /* perspective: eye to centre of the window; parallel: unit direction */
+    GiVec center;     /* perspective: eye to centre of the window; parallel: unit direction */
     GiVec across, up; /* the window's whole width and height */
 } GiView;
 

@@ -5,7 +5,8 @@
  * packet) a rectangle, and all of them a larger rectangle: a frustum of four planes, against which
  * nodes are tested once for all rays. A shape is a rectangle too, with a nearest depth; five
  * comparisons for all packets at once tell which packets it may concern, five more which rays of a
- * packet, and only those are tested exactly. (After Reshetov 2005, Overbeck 2008 and Davidovic 2012.)
+ * packet, and only those are tested exactly. (After Reshetov 2005, Overbeck 2008 and Davidovic
+ * 2012.)
  *
  *        b |   +---------------- tile
  *          |   | +--+ packet
@@ -16,8 +17,8 @@
  * centre of kernel space; here they are moved so that the apex is the origin, and grown by another
  * 2^-19 of the apex' own distance. Together that is at least 32 roundings of their distance p from
  * the apex. Plane distances and rectangles are sums and quotients of a dozen roundings of p, so
- * they err to the safe side. The rays' own (a, b) are computed in double, rounded once, and compared
- * with rectangles that are widened for it. */
+ * they err to the safe side. The rays' own (a, b) are computed in double, rounded once, and
+ * compared with rectangles that are widened for it. */
 #pragma once
 
 /* Sixteen roundings: what rays as points, and depths, are widened by. */
@@ -80,8 +81,7 @@ static inline void tile_pad(GiBundle *bundle) {
 
 /* The bundle's frame: w along the mean direction, u along `side` or, when that is not known, along
  * the longest extent of the rays. False when the rays are spread too wide for one plane. */
-static inline bool tile_frame(
-    const GiBundle *bundle, double toward, GiVec *u, GiVec *v, GiVec *w) {
+static inline bool tile_frame(const GiBundle *bundle, double toward, GiVec *u, GiVec *v, GiVec *w) {
     GiVec sum = {0, 0, 0};
     /* A few rays tell the direction well enough; tile_packets looks at all of them. */
     for (int i = 0; i < bundle->count; i += 1 + bundle->count / 16) {
@@ -133,8 +133,8 @@ static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiV
             r_store(bundle->inverse_square + i, R_OF(1) / square);
             R depth = R_OF(toward) * tile_dot(w, x, y, z);
             /* Within 66 degrees of the axis: depth / |d| > 0.4. */
-            oblique = oblique | M_NOT(R_LESS(R_OF(0.16) * square, depth * depth) &
-                                      R_LESS(R_OF(0), depth));
+            oblique = oblique |
+                      M_NOT(R_LESS(R_OF(0.16) * square, depth * depth) & R_LESS(R_OF(0), depth));
             r_store(bundle->depth + i, depth);
             R scale = R_OF(toward) / depth;
             R a = tile_dot(u, x, y, z) * scale, b = tile_dot(v, x, y, z) * scale;
@@ -220,8 +220,7 @@ static inline unsigned tile_node(const Frustum *frustum, const GiNode *node, flo
         F low[3], high[3];
         for (int axis = 0; axis < 3; axis++) {
             low[axis] = f_load(node->low[axis] + i) - f_of(frustum->apex[axis] + frustum->margin);
-            high[axis] =
-                f_load(node->high[axis] + i) - f_of(frustum->apex[axis] - frustum->margin);
+            high[axis] = f_load(node->high[axis] + i) - f_of(frustum->apex[axis] - frustum->margin);
         }
         F nearest = smallest_dot(frustum->axis[2], low, high);
         F zero = f_of(0);
@@ -237,15 +236,17 @@ static inline unsigned tile_node(const Frustum *frustum, const GiNode *node, flo
 }
 
 /* Eight shapes as rectangles in the plane of the packets. */
-typedef struct Rectangles { float a0[8], a1[8], b0[8], b1[8], near[8]; } Rectangles;
+typedef struct Rectangles {
+    float a0[8], a1[8], b0[8], b1[8], near[8];
+} Rectangles;
 
 static inline F widening(F a) { return f_of(GI_WIDER) * (f_of(1) + f_max(a, f_of(0) - a)); }
 
 /* From centres and half extents along u, v, w: (x +- e) / z over all z of the shape, which is
  * farthest out at the nearest or the farthest z. A shape that reaches the apex' own plane covers
  * everything. Returns the bits of those that may concern the tile. */
-static inline unsigned rectangles_of(const Frustum *frustum, int i, const F center[3],
-    const F extent[3], Rectangles *rectangles) {
+static inline unsigned rectangles_of(
+    const Frustum *frustum, int i, const F center[3], const F extent[3], Rectangles *rectangles) {
     F z0 = center[2] - extent[2], z1 = center[2] + extent[2];
     F one = f_of(1);
     F near_scale = one / z0, far_scale = one / z1;
@@ -324,8 +325,7 @@ static inline unsigned tile_overlaps(const Packets *packets, const Rectangles *s
 }
 
 /* Bits of the rays of one packet that lie in the rectangle and end behind its nearest point. */
-static inline unsigned tile_rays(
-    const Tile *tile, const Rectangles *shapes, int lane, int packet) {
+static inline unsigned tile_rays(const Tile *tile, const Rectangles *shapes, int lane, int packet) {
     int i = packet * GI_PACKET_SIZE;
     return tile->alive[packet] & sixteen_from(shapes->a0[lane], tile->a + i) &
            sixteen_up_to(shapes->a1[lane], tile->a + i) &

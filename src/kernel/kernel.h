@@ -31,7 +31,11 @@ typedef struct GiTraceHit {
  *     any       the rays end there: origin + direction is the apex, t_max at most 1 (shadow rays
  *               of a point light)
  * In: everything up to skip. Out: shape (GI_SHAPE_NONE: nothing met) and, for closest, t. */
-enum { GI_BUNDLE_SIZE = 256, GI_PACKET_SIZE = 16, GI_PACKET_COUNT = GI_BUNDLE_SIZE / GI_PACKET_SIZE };
+enum {
+    GI_BUNDLE_SIZE = 256,
+    GI_PACKET_SIZE = 16,
+    GI_PACKET_COUNT = GI_BUNDLE_SIZE / GI_PACKET_SIZE
+};
 
 typedef struct GiBundle {
     _Alignas(64) double ox[GI_BUNDLE_SIZE];
@@ -44,11 +48,11 @@ typedef struct GiBundle {
     int count; /* 1 to 256 */
     GiVec apex;
     GiVec side; /* a direction the packets are aligned with; zero: none known */
-    /* Filled in by the kernel: 1 / d where needed, 1 / d.d, depth of the direction along the axis. */
+    /* Filled in by the kernel: 1 / d where needed, 1 / d.d, depth of the direction along the axis.
+     */
     double ix[GI_BUNDLE_SIZE], iy[GI_BUNDLE_SIZE], iz[GI_BUNDLE_SIZE];
     double inverse_square[GI_BUNDLE_SIZE], depth[GI_BUNDLE_SIZE];
 } GiBundle;
-
 
 typedef struct GiKernel {
     const char *name;

@@ -21,8 +21,8 @@ typedef struct Line {
 
 static inline Line line_of(const GiTrace *trace, const GiTraceRay *r) {
     Line line = {.trace = trace, .t_min = r->t_min, .t_max = r->t_max, .skip = r->skip};
-    line.ray = gi_hit_ray(r->origin.x, r->origin.y, r->origin.z, r->direction.x, r->direction.y,
-        r->direction.z);
+    line.ray = gi_hit_ray(
+        r->origin.x, r->origin.y, r->origin.z, r->direction.x, r->direction.y, r->direction.z);
     const GiTree *tree = trace->tree;
     GiVec o = gi_scale(gi_sub(r->origin, tree->center), tree->scale);
     double length = gi_length(r->direction);
@@ -36,8 +36,7 @@ static inline Line line_of(const GiTrace *trace, const GiTraceRay *r) {
         line.origin[axis] = (float)origin[axis];
         line.direction[axis] = (float)direction[axis];
         /* A component so small stands for a ray that never leaves the slab it is in. */
-        line.inverse[axis] =
-            fabs(direction[axis]) < 1e-30 ? 1e30f : (float)(1 / direction[axis]);
+        line.inverse[axis] = fabs(direction[axis]) < 1e-30 ? 1e30f : (float)(1 / direction[axis]);
         line.negative[axis] = line.inverse[axis] < 0;
     }
     return line;
@@ -153,7 +152,8 @@ static inline void line_test(const Line *line, GiShapeRef ref, GiTraceHit *best)
     best->shape = ref;
 }
 
-static inline bool line_trace(const GiTrace *trace, const GiTraceRay *r, bool any, GiTraceHit *hit) {
+static inline bool line_trace(
+    const GiTrace *trace, const GiTraceRay *r, bool any, GiTraceHit *hit) {
     const GiTree *tree = trace->tree;
     Line line = line_of(trace, r);
     GiTraceHit best = {r->t_max, {GI_SHAPE_NONE}};

@@ -20,10 +20,10 @@
 #define GI_TEXT_(a)     #a
 #define GI_TEXT(a)      GI_TEXT_(a)
 
-#define avx512   1
-#define avx2     2
-#define sse2     3
-#define portable 4
+#define avx512        1
+#define avx2          2
+#define sse2          3
+#define portable      4
 #define GI_ISA_NUMBER GI_ISA
 #if GI_ISA_NUMBER == avx512
 #define GI_IS_AVX512 1
@@ -112,8 +112,7 @@ static inline unsigned sixteen_up_to(float x, const float p[16]) {
  * for sixteen. */
 static inline int sixteen_append(uint32_t *to, unsigned bits, uint32_t base) {
 #if defined(GI_IS_AVX512)
-    const __m512i count =
-        _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     __m512i all = _mm512_add_epi32(count, _mm512_set1_epi32((int)base));
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, all));
     return _mm_popcnt_u32(bits);
@@ -132,8 +131,8 @@ static inline int sixteen_append(uint32_t *to, unsigned bits, uint32_t base) {
 
 #if defined(GI_IS_AVX512)
 enum { GI_DOUBLES = 8 };
-#define R __m512d
-#define M __mmask8
+#define R                  __m512d
+#define M                  __mmask8
 #define R_OF(x)            _mm512_set1_pd(x)
 #define R_SQRT(a)          _mm512_sqrt_pd(a)
 #define R_MIN(a, b)        _mm512_min_pd(a, b)
@@ -154,8 +153,8 @@ static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
 }
 #elif defined(GI_IS_AVX2)
 enum { GI_DOUBLES = 4 };
-#define R __m256d
-#define M __m256i
+#define R                  __m256d
+#define M                  __m256i
 #define M_FROM(a)          _mm256_castpd_si256(a)
 #define R_OF(x)            _mm256_set1_pd(x)
 #define R_SQRT(a)          _mm256_sqrt_pd(a)
@@ -167,16 +166,14 @@ enum { GI_DOUBLES = 4 };
 #define R_SELECT(m, a, b)  _mm256_blendv_pd(b, a, _mm256_castsi256_pd(m))
 #define M_OF(x)            _mm256_set1_epi64x(-(long long)(x))
 #define M_NOT(m)           (~(m))
-static inline unsigned m_bits(M m) {
-    return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(m));
-}
+static inline unsigned m_bits(M m) { return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(m)); }
 static inline R r_load(const double *p) { return _mm256_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm256_storeu_pd(p, a); }
 static inline void r_store_floats(float *p, R a) { _mm_storeu_ps(p, _mm256_cvtpd_ps(a)); }
 #elif defined(GI_IS_SSE2)
 enum { GI_DOUBLES = 2 };
-#define R __m128d
-#define M __m128i
+#define R                  __m128d
+#define M                  __m128i
 #define M_FROM(a)          _mm_castpd_si128(a)
 #define R_OF(x)            _mm_set1_pd(x)
 #define R_SQRT(a)          _mm_sqrt_pd(a)
@@ -200,8 +197,8 @@ static inline void r_store_floats(float *p, R a) {
 }
 #else
 enum { GI_DOUBLES = 1 };
-#define R double
-#define M int
+#define R                  double
+#define M                  int
 #define R_OF(x)            (x)
 #define R_SQRT(a)          sqrt(a)
 #define R_MIN(a, b)        gi_hit_minimum(a, b)

@@ -4,7 +4,9 @@
 
 #include "math/vec.h"
 
-typedef struct GiAffine { double m[3][4]; } GiAffine;
+typedef struct GiAffine {
+    double m[3][4];
+} GiAffine;
 
 extern const GiAffine gi_affine_identity;
 

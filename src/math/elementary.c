@@ -86,7 +86,8 @@ double gi_pow(double base, double exponent) {
     double power = exp2_fraction((x - nearest) + y);
     /* Two factors, because 2^nearest alone may leave the range while the result does not. */
     int half = (int)nearest / 2, rest = (int)nearest - half;
-    return power * from_bits((uint64_t)(1023 + half) << 52) * from_bits((uint64_t)(1023 + rest) << 52);
+    return power * from_bits((uint64_t)(1023 + half) << 52) *
+           from_bits((uint64_t)(1023 + rest) << 52);
 }
 
 void gi_sincos_degrees(double degrees, double *sine, double *cosine) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Four floats at once, for boxes: x, y, z and one to spare. SSE where the processor is known to have
- * it (every x86-64), plain C elsewhere, with the same results. */
+ * Four floats at once, for boxes: x, y, z and one to spare. SSE where the processor is known to
+ * have it (every x86-64), plain C elsewhere, with the same results. */
 #pragma once
 
 #include <stdint.h>
@@ -26,7 +26,9 @@ static inline void gi_four_to_int(GiFour a, int32_t to[4]) {
 
 #else
 
-typedef struct GiFour { float v[4]; } GiFour;
+typedef struct GiFour {
+    float v[4];
+} GiFour;
 
 #define GI_FOUR_EACH(expression)                                                                   \
     do {                                                                                           \

@@ -5,7 +5,9 @@
 #include <math.h>
 #include <stdbool.h>
 
-typedef struct GiVec { double x, y, z; } GiVec;
+typedef struct GiVec {
+    double x, y, z;
+} GiVec;
 
 static inline GiVec gi_vec(double x, double y, double z) { return (GiVec){x, y, z}; }
 static inline GiVec gi_vec_from(const double v[3]) { return (GiVec){v[0], v[1], v[2]}; }

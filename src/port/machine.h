@@ -15,7 +15,11 @@ int gi_machine_core_count(void);
 /* Seconds since some fixed moment; never runs backwards. */
 double gi_machine_seconds(void);
 
-typedef enum GiMachineFeature { GI_MACHINE_SSE2, GI_MACHINE_AVX2, GI_MACHINE_AVX512 } GiMachineFeature;
+typedef enum GiMachineFeature {
+    GI_MACHINE_SSE2,
+    GI_MACHINE_AVX2,
+    GI_MACHINE_AVX512
+} GiMachineFeature;
 
 /* Whether processor and operating system support it. AVX2 stands for the Haswell set (with FMA, BMI
  * and POPCNT), AVX512 for F, CD, BW, DQ and VL on top of that. */

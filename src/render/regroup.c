@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Rays become points in the plane across their mean direction, with axes along the cloud's own; each
- * coordinate is replaced by its rank among 64, and the rays are walked along a Hilbert curve.
+ * Rays become points in the plane across their mean direction, with axes along the cloud's own;
+ * each coordinate is replaced by its rank among 64, and the rays are walked along a Hilbert curve.
  * Ranks, not lengths: behind a silhouette one far pixel would otherwise push all others into a
  * few cells. One counting sort does the rest, so the whole costs a few nanoseconds a ray. */
 #include "render/regroup.h"
@@ -9,7 +9,9 @@
 
 enum { BUCKETS = 256, RANKS = 64, CELLS = RANKS * RANKS, KEEP_ORDER = 16 };
 
-typedef struct Axes { float u[3], v[3], w[3]; } Axes;
+typedef struct Axes {
+    float u[3], v[3], w[3];
+} Axes;
 
 static void store(float to[3], GiVec v) {
     to[0] = (float)v.x;

@@ -4,10 +4,14 @@
 
 #include "render/world.h"
 
-typedef struct GiRenderCounts { uint64_t camera_rays, shadow_rays; } GiRenderCounts;
+typedef struct GiRenderCounts {
+    uint64_t camera_rays, shadow_rays;
+} GiRenderCounts;
 
 /* The part of a picture to draw; x and y count from the top left corner. */
-typedef struct GiRenderArea { int width, height, x, y, crop_width, crop_height; } GiRenderArea;
+typedef struct GiRenderArea {
+    int width, height, x, y, crop_width, crop_height;
+} GiRenderArea;
 
 /* pixels: crop_width * crop_height * 3 floats, top row first. Errors: MEMORY, CANCELLED. */
 GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *area,

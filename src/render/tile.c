@@ -32,8 +32,8 @@ struct GiTileScratch {
     Hit hits[PIXEL_COUNT];
     Pending pending[PIXEL_COUNT];
     double across[GI_TILE_SIDE], up[GI_TILE_SIDE]; /* window coordinates of columns and rows */
-    GiVec color[PIXEL_COUNT]; /* of the sample being drawn */
-    GiVec sum[PIXEL_COUNT];   /* of the samples before */
+    GiVec color[PIXEL_COUNT];                      /* of the sample being drawn */
+    GiVec sum[PIXEL_COUNT];                        /* of the samples before */
     int hit_count;
 };
 
@@ -48,7 +48,9 @@ void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch) {
 }
 
 /* The tile's pixels that lie in the area. */
-typedef struct Extent { int x, y, width, height; } Extent;
+typedef struct Extent {
+    int x, y, width, height;
+} Extent;
 
 /* ---------------------------------------------------------------- camera rays */
 
@@ -65,11 +67,10 @@ static void keep_hit(const GiWorld *world, GiTileScratch *scratch, int i, uint32
     GiShapeRef ref = {bundle->shape[i]};
     GiVec origin = {bundle->ox[i], bundle->oy[i], bundle->oz[i]};
     GiVec direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]};
-    GiSurfacePoint at = gi_shape_point(&world->shapes, ref, origin, direction, bundle->t[i],
-        world->rules->cone_geometric);
+    GiSurfacePoint at = gi_shape_point(
+        &world->shapes, ref, origin, direction, bundle->t[i], world->rules->cone_geometric);
     GiShapeRef own = gi_shape_unplaced(&world->shapes, ref);
-    bool skip =
-        !world->rules->sphere_shadows_itself && gi_shape_kind(own) == GI_SHAPE_SPHERE;
+    bool skip = !world->rules->sphere_shadows_itself && gi_shape_kind(own) == GI_SHAPE_SPHERE;
     uint32_t shader = world->shapes.info[gi_shape_kind(own)][gi_shape_index(own)].shader;
     scratch->hits[scratch->hit_count++] = (Hit){at.point, at.normal, gi_negate(direction), at.error,
         pixel, shader, skip ? ref.bits : GI_SHAPE_NONE};
@@ -90,8 +91,8 @@ static void trace_apart(const GiWorld *world, GiBundle *bundle) {
 }
 
 /* One bundle: the pixels of a block, packet by packet. */
-static void trace_block(const GiWorld *world, const Extent *extent, int block_x, int block_y,
-    GiTileScratch *scratch) {
+static void trace_block(
+    const GiWorld *world, const Extent *extent, int block_x, int block_y, GiTileScratch *scratch) {
     GiBundle *bundle = &scratch->bundle;
     uint32_t pixels[GI_BUNDLE_SIZE];
     int count = 0;
@@ -103,7 +104,8 @@ static void trace_block(const GiWorld *world, const Extent *extent, int block_x,
             if (x >= extent->width || y >= extent->height) continue;
             GiVec origin, direction;
             gi_view_ray(&world->view, scratch->across[x], scratch->up[y], &origin, &direction);
-            bundle->ox[count] = origin.x, bundle->oy[count] = origin.y, bundle->oz[count] = origin.z;
+            bundle->ox[count] = origin.x, bundle->oy[count] = origin.y,
+            bundle->oz[count] = origin.z;
             bundle->dx[count] = direction.x, bundle->dy[count] = direction.y;
             bundle->dz[count] = direction.z;
             bundle->t_min[count] = 0;
@@ -186,8 +188,8 @@ static void add_light(const GiWorld *world, const GiLight *light, GiTileScratch 
         if (!(square > 0)) continue; /* the light is on the surface */
         double inverse = 1 / sqrt(square);
         const GiShader *shader = &world->scene->shaders.data[hit->shader];
-        GiVec factor = gi_shade_reflect(
-            shader, rules, hit->normal, hit->toward_viewer, gi_scale(d, inverse));
+        GiVec factor =
+            gi_shade_reflect(shader, rules, hit->normal, hit->toward_viewer, gi_scale(d, inverse));
         GiVec adds = gi_multiply(gi_shade_light(light, rules, square), factor);
         if (gi_vec_is_zero(adds)) continue;
         double away = rules->shadow_distance > 0 ? rules->shadow_distance : hit->error;

@@ -30,7 +30,8 @@ static GlintStatus place_shape(
     if (group->transform == GI_SHAPE_NONE) {
         GiTransform transform = {.to_world = group->to_world};
         if (!gi_affine_invert(&transform.to_world, &transform.to_object)) {
-            return gi_error_set(error, GLINT_ERROR_SCENE, "the transforms of nested groups are singular");
+            return gi_error_set(
+                error, GLINT_ERROR_SCENE, "the transforms of nested groups are singular");
         }
         group->transform = (uint32_t)world->transforms.count;
         if (!gi_array_push(memory, &world->transforms, transform)) return gi_error_memory(error);
@@ -43,16 +44,15 @@ static GlintStatus place_shape(
     return GLINT_OK;
 }
 
-static GlintStatus open_group(GiWorld *world, const GiScene *scene, OpenGroups *open,
-    uint32_t index, GlintError *error) {
+static GlintStatus open_group(
+    GiWorld *world, const GiScene *scene, OpenGroups *open, uint32_t index, GlintError *error) {
     OpenGroup group = {.group = index, .transform = GI_SHAPE_NONE};
     GiAffine own;
     if (!gi_scene_group_matrix(scene, &scene->groups.data[index], world->rules, &own)) {
         return gi_error_set(error, GLINT_ERROR_SCENE, "the transform of a group is singular");
     }
-    group.to_world = open->count == 0
-                         ? own
-                         : gi_affine_multiply(&open->data[open->count - 1].to_world, &own);
+    group.to_world =
+        open->count == 0 ? own : gi_affine_multiply(&open->data[open->count - 1].to_world, &own);
     return gi_array_push(scene->memory, open, group) ? GLINT_OK : gi_error_memory(error);
 }
 
@@ -136,8 +136,8 @@ GlintStatus gi_world_commit(GiWorld *world, GiScene *scene, const GiKernel *kern
         world->primitive_count = world->refs.count;
     }
     point_shapes(world, scene);
-    GlintStatus status = gi_tree_build(scene->memory, pool, &world->shapes, refs,
-        world->primitive_count, monitor, &world->store);
+    GlintStatus status = gi_tree_build(
+        scene->memory, pool, &world->shapes, refs, world->primitive_count, monitor, &world->store);
     if (status != GLINT_OK) {
         return status == GLINT_ERROR_MEMORY ? gi_error_memory(error)
                                             : gi_error_set(error, status, "cancelled");

@@ -7,17 +7,17 @@
 
 typedef struct GiRules {
     const char *name;
-    bool falloff;              /* point lights fall off with the square of the distance */
-    bool diffuse_over_pi;      /* the diffuse term is kd / pi, not kd */
-    bool phong_cosine;         /* the highlight is multiplied by n.l */
-    bool highlight_needs_light;/* no highlight where n.l <= 0 */
-    bool black_from_behind;    /* reflected light is black where n.v < 0 */
+    bool falloff;               /* point lights fall off with the square of the distance */
+    bool diffuse_over_pi;       /* the diffuse term is kd / pi, not kd */
+    bool phong_cosine;          /* the highlight is multiplied by n.l */
+    bool highlight_needs_light; /* no highlight where n.l <= 0 */
+    bool black_from_behind;     /* reflected light is black where n.v < 0 */
     bool sphere_shadows_itself;
-    bool entering_only;        /* boxes and cylinders lose their exits (docs/scene-format.md) */
-    bool cone_geometric;       /* normals of a cone's second nappe are geometric */
-    bool first_listed_first;   /* order in which the transforms of a group act */
-    double shadow_distance;    /* a shadow ray begins at this distance; 0: at the error bound */
-    double default_diffuse;    /* of a Lambertian shader */
+    bool entering_only;      /* boxes and cylinders lose their exits (docs/scene-format.md) */
+    bool cone_geometric;     /* normals of a cone's second nappe are geometric */
+    bool first_listed_first; /* order in which the transforms of a group act */
+    double shadow_distance;  /* a shadow ray begins at this distance; 0: at the error bound */
+    double default_diffuse;  /* of a Lambertian shader */
 } GiRules;
 
 /* The row of a dialect other than AUTO. */
@@ -25,14 +25,14 @@ const GiRules *gi_dialect_rules(GlintDialect dialect);
 
 /* What the reader saw in a file that tells its year. */
 typedef enum GiEvidence {
-    GI_EVIDENCE_BSDF = 1 << 0,            /* bsdf, integrator or environment */
-    GI_EVIDENCE_MATERIAL = 1 << 1,        /* material element, Plane or Disc */
-    GI_EVIDENCE_CAMERA_TYPE = 1 << 2,     /* the camera has a type */
-    GI_EVIDENCE_LIGHT_TYPE = 1 << 3,      /* some light has a type other than Light */
-    GI_EVIDENCE_SECOND_TRACER = 1 << 4,   /* cubemap, Group, Glass, Glazed, CookTorrance */
+    GI_EVIDENCE_BSDF = 1 << 0,          /* bsdf, integrator or environment */
+    GI_EVIDENCE_MATERIAL = 1 << 1,      /* material element, Plane or Disc */
+    GI_EVIDENCE_CAMERA_TYPE = 1 << 2,   /* the camera has a type */
+    GI_EVIDENCE_LIGHT_TYPE = 1 << 3,    /* some light has a type other than Light */
+    GI_EVIDENCE_SECOND_TRACER = 1 << 4, /* cubemap, Group, Glass, Glazed, CookTorrance */
     GI_EVIDENCE_BRDF = 1 << 5,
-    GI_EVIDENCE_2019 = 1 << 6,            /* mirrorCoefficient, MicrofacetBeckmann, -GGX */
-    GI_EVIDENCE_EXPOSURE = 1 << 7         /* exposure or texture */
+    GI_EVIDENCE_2019 = 1 << 6,    /* mirrorCoefficient, MicrofacetBeckmann, -GGX */
+    GI_EVIDENCE_EXPOSURE = 1 << 7 /* exposure or texture */
 } GiEvidence;
 
 /* The dialect that the evidence (a set of GiEvidence) points to. */

@@ -107,8 +107,7 @@ double gi_scene_cone_tip(double center_z, double radius, double theta_degrees) {
 
 bool gi_scene_add_sphere(
     GiScene *scene, GiVec center, double radius, uint32_t shader, GiShapeRef *ref) {
-    ADD_SHAPE(
-        scene, &scene->spheres, GI_SHAPE_SPHERE, shader, ref, (GiSphere){center, radius});
+    ADD_SHAPE(scene, &scene->spheres, GI_SHAPE_SPHERE, shader, ref, (GiSphere){center, radius});
 }
 
 bool gi_scene_add_box(GiScene *scene, GiVec a, GiVec b, uint32_t shader, GiShapeRef *ref) {
@@ -119,10 +118,10 @@ bool gi_scene_add_box(GiScene *scene, GiVec a, GiVec b, uint32_t shader, GiShape
     ADD_SHAPE(scene, &scene->boxes, GI_SHAPE_BOX, shader, ref, box);
 }
 
-bool gi_scene_add_cylinder(GiScene *scene, GiVec center, double radius, double height,
-    uint32_t shader, GiShapeRef *ref) {
-    ADD_SHAPE(scene, &scene->cones, GI_SHAPE_CONE, shader, ref,
-        (GiCone){center, radius, 0, height / 2});
+bool gi_scene_add_cylinder(
+    GiScene *scene, GiVec center, double radius, double height, uint32_t shader, GiShapeRef *ref) {
+    ADD_SHAPE(
+        scene, &scene->cones, GI_SHAPE_CONE, shader, ref, (GiCone){center, radius, 0, height / 2});
 }
 
 bool gi_scene_add_cone(GiScene *scene, GiVec center, double radius, double height, double tip_z,
@@ -131,16 +130,16 @@ bool gi_scene_add_cone(GiScene *scene, GiVec center, double radius, double heigh
         (GiCone){center, radius, -radius / (tip_z - center.z), height / 2});
 }
 
-bool gi_scene_add_disc(GiScene *scene, GiVec center, GiVec normal, double radius, uint32_t shader,
-    GiShapeRef *ref) {
+bool gi_scene_add_disc(
+    GiScene *scene, GiVec center, GiVec normal, double radius, uint32_t shader, GiShapeRef *ref) {
     ADD_SHAPE(scene, &scene->discs, GI_SHAPE_DISC, shader, ref,
         (GiDisc){center, gi_normalize(normal), radius});
 }
 
 bool gi_scene_add_plane(
     GiScene *scene, GiVec point, GiVec normal, uint32_t shader, GiShapeRef *ref) {
-    ADD_SHAPE(scene, &scene->planes, GI_SHAPE_PLANE, shader, ref,
-        (GiPlane){point, gi_normalize(normal)});
+    ADD_SHAPE(
+        scene, &scene->planes, GI_SHAPE_PLANE, shader, ref, (GiPlane){point, gi_normalize(normal)});
 }
 
 /* ---------------------------------------------------------------- groups */

@@ -96,12 +96,12 @@ double gi_scene_cone_tip(double center_z, double radius, double theta_degrees);
 bool gi_scene_add_sphere(
     GiScene *scene, GiVec center, double radius, uint32_t shader, GiShapeRef *ref);
 bool gi_scene_add_box(GiScene *scene, GiVec a, GiVec b, uint32_t shader, GiShapeRef *ref);
-bool gi_scene_add_cylinder(GiScene *scene, GiVec center, double radius, double height,
-    uint32_t shader, GiShapeRef *ref);
+bool gi_scene_add_cylinder(
+    GiScene *scene, GiVec center, double radius, double height, uint32_t shader, GiShapeRef *ref);
 bool gi_scene_add_cone(GiScene *scene, GiVec center, double radius, double height, double tip_z,
     uint32_t shader, GiShapeRef *ref);
-bool gi_scene_add_disc(GiScene *scene, GiVec center, GiVec normal, double radius, uint32_t shader,
-    GiShapeRef *ref);
+bool gi_scene_add_disc(
+    GiScene *scene, GiVec center, GiVec normal, double radius, uint32_t shader, GiShapeRef *ref);
 bool gi_scene_add_plane(
     GiScene *scene, GiVec point, GiVec normal, uint32_t shader, GiShapeRef *ref);
 bool gi_scene_add_group(GiScene *scene, GiShapeRef *ref);

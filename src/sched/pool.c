@@ -18,8 +18,8 @@ typedef struct Loop {
 
 struct GiPool {
     GiMemory *memory;
-    int worker_count;   /* with the caller */
-    int started;        /* threads */
+    int worker_count; /* with the caller */
+    int started;      /* threads */
     pthread_t *threads;
     size_t threads_size; /* bytes */
     pthread_mutex_t mutex;
@@ -47,7 +47,8 @@ static void *run_worker(void *argument) {
     int worker = ++pool->started;
     unsigned seen = 0;
     for (;;) {
-        while (!pool->quit && pool->generation == seen) pthread_cond_wait(&pool->wake, &pool->mutex);
+        while (!pool->quit && pool->generation == seen)
+            pthread_cond_wait(&pool->wake, &pool->mutex);
         if (pool->quit) break;
         seen = pool->generation;
         pool->active++;

@@ -56,8 +56,7 @@ static void run(void *context, size_t begin, size_t end, int worker) {
 GlintStatus gi_tasks_run(GiPool *pool, GiMemory *memory, const void *first, size_t task_size,
     GiTaskFn function, void *context) {
     if (task_size > TASK_LIMIT) return GLINT_ERROR_ARGUMENT;
-    GiTasks tasks = {
-        .memory = memory, .size = task_size, .function = function, .context = context};
+    GiTasks tasks = {.memory = memory, .size = task_size, .function = function, .context = context};
     pthread_mutex_init(&tasks.mutex, NULL);
     pthread_cond_init(&tasks.changed, NULL);
     GlintStatus status = GLINT_ERROR_MEMORY;

@@ -22,7 +22,7 @@
 /* A ray with what the tests want to have ready. */
 typedef struct GI_HIT(Ray) {
     R ox, oy, oz, dx, dy, dz;
-    R ix, iy, iz; /* 1 / d; of a component that is zero, a huge number of the sign of plus */
+    R ix, iy, iz;     /* 1 / d; of a component that is zero, a huge number of the sign of plus */
     R inverse_square; /* 1 / d.d */
 } GI_HIT(Ray);
 
@@ -58,8 +58,7 @@ static inline M GI_HIT(pick)(R enter, R leave, M exits, R t_min, R t_max, R *t) 
 }
 
 /* By the point of closest approach: b^2 - 4ac would lose a small sphere far away to rounding. */
-static inline M GI_HIT(sphere)(
-    const GiSphere *s, const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
+static inline M GI_HIT(sphere)(const GiSphere *s, const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
     R x = R_OF(s->center.x) - ray->ox, y = R_OF(s->center.y) - ray->oy,
       z = R_OF(s->center.z) - ray->oz;
     R nearest = (x * ray->dx + y * ray->dy + z * ray->dz) * ray->inverse_square;
@@ -92,11 +91,11 @@ static inline M GI_HIT(box)(
 /* The ray against the infinite double cone: the ray's origin is first moved to its point of closest
  * approach to the centre, which keeps the numbers as small as the shape is. */
 typedef struct GI_HIT(Wall) {
-    R shift;    /* t of the moved origin */
-    R oz;       /* its height above the centre plane */
+    R shift;     /* t of the moved origin */
+    R oz;        /* its height above the centre plane */
     R near, far; /* roots, ascending, counted from the moved origin */
-    M outside;  /* the line is inside where t <= near or far <= t, not between the two */
-    M none;     /* nothing of the line is inside */
+    M outside;   /* the line is inside where t <= near or far <= t, not between the two */
+    M none;      /* nothing of the line is inside */
 } GI_HIT(Wall);
 
 static inline GI_HIT(Wall) GI_HIT(wall)(const GiCone *cone, const GI_HIT(Ray) * ray) {
@@ -144,12 +143,12 @@ static inline M GI_HIT(frustum)(const GI_HIT(Wall) * wall, const GI_HIT(Ray) * r
     R wall_leave = R_SELECT(first, wall->near, R_SELECT(second, R_OF(1e300), wall->far));
     R enter = R_MAX(slab_enter, wall_enter), leave = R_MIN(slab_leave, wall_leave);
     M exits = M_OF(cap_exits) | R_LESS(wall_leave, slab_leave);
-    return M_NOT(wall->none) & GI_HIT(pick)(enter + wall->shift, leave + wall->shift, exits, t_min,
-                                   t_max, t);
+    return M_NOT(wall->none) &
+           GI_HIT(pick)(enter + wall->shift, leave + wall->shift, exits, t_min, t_max, t);
 }
 
-static inline M GI_HIT(cone)(const GiCone *cone, const GI_HIT(Ray) * ray, bool entering_only,
-    R t_min, R t_max, R *t) {
+static inline M GI_HIT(cone)(
+    const GiCone *cone, const GI_HIT(Ray) * ray, bool entering_only, R t_min, R t_max, R *t) {
     GI_HIT(Wall) wall = GI_HIT(wall)(cone, ray);
     bool cap_exits = !(entering_only && cone->slope == 0);
     double half = cone->half_height, apex = gi_cone_apex(cone);
@@ -174,8 +173,7 @@ static inline M GI_HIT(flat)(
     return R_LESS(t_min, *t) & R_LESS(*t, t_max);
 }
 
-static inline M GI_HIT(disc)(
-    const GiDisc *disc, const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
+static inline M GI_HIT(disc)(const GiDisc *disc, const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
     M hit = GI_HIT(flat)(&disc->center, &disc->normal, ray, t_min, t_max, t);
     R x = ray->ox - R_OF(disc->center.x) + *t * ray->dx,
       y = ray->oy - R_OF(disc->center.y) + *t * ray->dy,
@@ -184,8 +182,8 @@ static inline M GI_HIT(disc)(
     return hit & R_LESS_EQUAL(x * x + y * y + z * z, radius * radius);
 }
 
-static inline M GI_HIT(unplaced)(const GiShapes *shapes, GiShapeRef ref, const GI_HIT(Ray) * ray,
-    R t_min, R t_max, R *t) {
+static inline M GI_HIT(unplaced)(
+    const GiShapes *shapes, GiShapeRef ref, const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
     uint32_t i = gi_shape_index(ref);
     switch (gi_shape_kind(ref)) {
     case GI_SHAPE_SPHERE: return GI_HIT(sphere)(&shapes->spheres[i], ray, t_min, t_max, t);
@@ -202,8 +200,8 @@ static inline M GI_HIT(unplaced)(const GiShapes *shapes, GiShapeRef ref, const G
 }
 
 /* Any shape. */
-static inline M GI_HIT(shape)(const GiShapes *shapes, GiShapeRef ref, const GI_HIT(Ray) * ray,
-    R t_min, R t_max, R *t) {
+static inline M GI_HIT(shape)(
+    const GiShapes *shapes, GiShapeRef ref, const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
     if (gi_shape_kind(ref) != GI_SHAPE_PLACED) {
         return GI_HIT(unplaced)(shapes, ref, ray, t_min, t_max, t);
     }

@@ -7,8 +7,8 @@
 
 static GiBox cone_bounds(const GiCone *cone) {
     double half = cone->half_height;
-    double reach = fmax(
-        fabs(cone->radius + cone->slope * half), fabs(cone->radius - cone->slope * half));
+    double reach =
+        fmax(fabs(cone->radius + cone->slope * half), fabs(cone->radius - cone->slope * half));
     return (GiBox){
         gi_vec(cone->center.x - reach, cone->center.y - reach, cone->center.z - half),
         gi_vec(cone->center.x + reach, cone->center.y + reach, cone->center.z + half),
@@ -35,8 +35,7 @@ static GiBox unplaced_bounds(const GiShapes *shapes, GiShapeRef ref) {
     case GI_SHAPE_BOX: return shapes->boxes[i];
     case GI_SHAPE_CONE: return cone_bounds(&shapes->cones[i]);
     case GI_SHAPE_DISC: return disc_bounds(&shapes->discs[i]);
-    default:
-        return (GiBox){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+    default: return (GiBox){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
     }
 }
 
@@ -162,8 +161,8 @@ static double offset_of(const GiAffine *a) {
     return fmax(fabs(a->m[0][3]), fmax(fabs(a->m[1][3]), fabs(a->m[2][3])));
 }
 
-GiSurfacePoint gi_shape_point_any(const GiShapes *shapes, GiShapeRef ref, GiVec origin, GiVec direction,
-    double t, bool second_nappe_geometric) {
+GiSurfacePoint gi_shape_point_any(const GiShapes *shapes, GiShapeRef ref, GiVec origin,
+    GiVec direction, double t, bool second_nappe_geometric) {
     GiSurfacePoint at;
     if (gi_shape_kind(ref) != GI_SHAPE_PLACED) {
         at = unplaced_point(shapes, ref, origin, direction, t, second_nappe_geometric);

@@ -18,7 +18,9 @@ typedef enum GiShapeKind {
     GI_SHAPE_GROUP                         /* only before commit: index into the groups */
 } GiShapeKind;
 
-typedef struct GiShapeRef { uint32_t bits; } GiShapeRef; /* kind << 28 | index */
+typedef struct GiShapeRef {
+    uint32_t bits;
+} GiShapeRef; /* kind << 28 | index */
 
 #define GI_SHAPE_INDEX_LIMIT (1u << 28)
 #define GI_SHAPE_NONE        UINT32_MAX
@@ -34,7 +36,9 @@ typedef struct GiSphere {
     double radius;
 } GiSphere;
 
-typedef struct GiBox { GiVec low, high; } GiBox;
+typedef struct GiBox {
+    GiVec low, high;
+} GiBox;
 
 /* Solid of revolution round the line x = center.x, y = center.y: at height z above the centre plane
  * the radius is |radius + slope * z|, for |z| <= half_height. slope 0: a cylinder. Otherwise the
@@ -49,7 +53,9 @@ typedef struct GiDisc {
     double radius;
 } GiDisc;
 
-typedef struct GiPlane { GiVec point, normal; /* unit */ } GiPlane;
+typedef struct GiPlane {
+    GiVec point, normal; /* unit */
+} GiPlane;
 
 /* What a shape is to the scene, beside its numbers. */
 typedef struct GiShapeInfo {
@@ -62,7 +68,9 @@ typedef struct GiPlacement {
     uint32_t transform;
 } GiPlacement;
 
-typedef struct GiTransform { GiAffine to_world, to_object; } GiTransform;
+typedef struct GiTransform {
+    GiAffine to_world, to_object;
+} GiTransform;
 
 /* The arrays that refs index, with the one rule that changes where rays meet shapes. */
 typedef struct GiShapes {
@@ -130,8 +138,8 @@ static inline GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef r
     if (gi_shape_kind(ref) != GI_SHAPE_SPHERE) {
         return gi_shape_point_any(shapes, ref, origin, direction, t, second_nappe_geometric);
     }
-    GiSurfacePoint at = gi_sphere_point(
-        &shapes->spheres[gi_shape_index(ref)], gi_along(origin, direction, t));
+    GiSurfacePoint at =
+        gi_sphere_point(&shapes->spheres[gi_shape_index(ref)], gi_along(origin, direction, t));
     at.error = (at.error + gi_largest(at.point)) * GI_SURFACE_ERROR;
     return at;
 }
