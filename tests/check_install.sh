@@ -81,7 +81,8 @@ flags() { pkg-config --define-variable=prefix="$prefix" --cflags --libs "$@" gli
     check "it runs" env LD_LIBRARY_PATH="$libdir" ./ball
     check "it has drawn" test -s ball.png
     check "a program with the static library" \
-        "${CC:-gcc}" -std=c11 ball.c -o ball-static $(flags --static | sed 's/-lglint/-l:libglint.a/')
+        "${CC:-gcc}" -std=c11 ball.c -o ball-static \
+        $(flags --static | sed 's/-lglint/-l:libglint.a/')
     check "it runs" ./ball-static
 }
 # Nothing but the public names may be seen from outside.

@@ -35,7 +35,11 @@ run() {
     shift
     "$glint" "$@" >"$dir/out" 2>"$dir/err" </dev/null
     status=$?
-    if [ $status -eq "$expected" ]; then pass; else fail "glint $*: status $status, not $expected"; fi
+    if [ $status -eq "$expected" ]; then
+        pass
+    else
+        fail "glint $*: status $status, not $expected"
+    fi
 }
 says() { check "standard error says: $1" grep -qF -e "$1" "$dir/err"; }
 silent() { check "$1: nothing on standard error" test ! -s "$dir/err"; }
@@ -46,7 +50,8 @@ printed() {
 pixels() {
     size=$("$python" -c 'import struct, sys
 data = open(sys.argv[1], "rb").read(24)
-print(*struct.unpack(">2I", data[16:24])) if data[:8] == b"\x89PNG\r\n\x1a\n" else print("no PNG")' "$1")
+is_png = data[:8] == b"\x89PNG\r\n\x1a\n"
+print(*(struct.unpack(">2I", data[16:24]) if is_png else ["no", "PNG"]))' "$1")
     if [ "$size" = "$2" ]; then pass; else fail "$1 is $size, not $2"; fi
 }
 
