@@ -26,6 +26,8 @@ enum {
     STREAM_HEAD = 2,        /* of the zlib stream, in the first strip */
     FILTER_PAETH = 4,
     STRIPS_PER_WORKER = 4, /* in a batch */
+    SAMPLE_COUNT = 4,      /* strips looked at to make the code, */
+    SAMPLE_SIZE = 24 << 10,/* and bytes of each */
     TEXT_LIMIT = 1 << 16,  /* bytes of a title */
 };
 
@@ -54,6 +56,7 @@ typedef struct Encoder {
     Slot *slots;
     size_t slot_count;
     Scratch *scratch;
+    GiDeflateCode *code;
     size_t worker_count;
     size_t first; /* strip in slots[0] */
 } Encoder;
@@ -211,7 +214,7 @@ static void encode_strips(void *context, size_t begin, size_t end, int worker) {
         slot->adler = gi_deflate_adler32(scratch->raw, slot->raw_size);
         memcpy(data, "\x78\x01", head); /* deflate, window of 32 KB, fastest */
         size_t size =
-            gi_deflate_piece(scratch->deflater, scratch->raw, slot->raw_size, data + head);
+            gi_deflate_piece(scratch->deflater, encoder->code, scratch->raw, slot->raw_size, data + head);
         slot->chunk_size = size != 0 ? finish_chunk(slot->chunk, "IDAT", head + size) : 0;
     }
 }
@@ -243,7 +246,8 @@ static bool reserve(Encoder *encoder) {
     if (encoder->slots != NULL) memset(encoder->slots, 0, slots_size);
     encoder->scratch = gi_memory_allocate(memory, scratch_size);
     if (encoder->scratch != NULL) memset(encoder->scratch, 0, scratch_size);
-    if (encoder->slots == NULL || encoder->scratch == NULL) return false;
+    encoder->code = gi_deflate_code_create(memory);
+    if (encoder->slots == NULL || encoder->scratch == NULL || encoder->code == NULL) return false;
     for (size_t i = 0; i < encoder->slot_count; i++) {
         encoder->slots[i].chunk = gi_memory_allocate(memory, encoder->chunk_limit);
         if (encoder->slots[i].chunk == NULL) return false;
@@ -274,8 +278,22 @@ static void release(Encoder *encoder) {
         gi_memory_free(memory, scratch->raw, encoder->raw_limit);
         gi_deflate_destroy(scratch->deflater);
     }
+    gi_deflate_code_destroy(encoder->code);
     gi_memory_free(memory, encoder->slots, encoder->slot_count * sizeof *encoder->slots);
     gi_memory_free(memory, encoder->scratch, encoder->worker_count * sizeof *encoder->scratch);
+}
+
+/* Makes the code from parts of a few strips, evenly spread over the picture. */
+static void learn_code(Encoder *encoder) {
+    Scratch *scratch = &encoder->scratch[0];
+    size_t count = encoder->strip_count, samples = count < SAMPLE_COUNT ? count : SAMPLE_COUNT;
+    for (size_t i = 0; i < samples; i++) {
+        size_t size = filter_strip(encoder, scratch, (2 * i + 1) * count / (2 * samples));
+        size_t middle = size / 2, length = size - middle;
+        if (length > SAMPLE_SIZE) length = SAMPLE_SIZE;
+        gi_deflate_code_learn(encoder->code, scratch->raw + middle, length);
+    }
+    gi_deflate_code_finish(encoder->code);
 }
 
 static GlintStatus stopped(GlintError *error) {
@@ -350,6 +368,7 @@ GlintStatus gi_png_encode(GiMemory *memory, const GlintImage *image, const char 
     if (encoder.slot_count > encoder.strip_count) encoder.slot_count = encoder.strip_count;
 
     status = reserve(&encoder) ? GLINT_OK : gi_error_memory(error);
+    if (status == GLINT_OK) learn_code(&encoder);
     if (status == GLINT_OK) status = send_head(&encoder, title, sink, user, error);
     if (status == GLINT_OK) status = send_strips(&encoder, pool, monitor, sink, user, error);
     release(&encoder);
