@@ -442,12 +442,9 @@ static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned ray
         R t;
         M hit = gi_wide_shape(tile->trace->shapes, ref, &ray, r_load(bundle->t_min + i),
             r_load(bundle->t_max + i), &t);
-        for (unsigned bits = m_bits(hit) & rays >> j; bits != 0; bits &= bits - 1) {
-            int lane = lowest_bit(bits);
-            if (bundle->skip[i + lane] == ref.bits) continue;
-            bundle->shape[i + lane] = ref.bits;
-            stopped |= 1u << (j + lane);
-        }
+        unsigned bits = m_bits(hit) & rays >> j & ~u_equal(bundle->skip + i, ref.bits);
+        u_store_where(bundle->shape + i, bits, ref.bits);
+        stopped |= bits << j;
     }
     tile->alive[packet] &= ~stopped;
     if (stopped == 0 || tile->alive[packet] != 0) return false;

@@ -151,6 +151,10 @@ static inline void r_store_floats(float *p, R a) { _mm256_storeu_ps(p, _mm512_cv
 static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
     _mm256_mask_storeu_epi32(p, (__mmask8)bits, _mm256_set1_epi32((int)value));
 }
+static inline unsigned u_equal(const uint32_t *p, uint32_t value) {
+    __m256i all = _mm256_loadu_si256((const __m256i *)(const void *)p);
+    return _mm256_cmpeq_epi32_mask(all, _mm256_set1_epi32((int)value));
+}
 #elif defined(GI_IS_AVX2)
 enum { GI_DOUBLES = 4 };
 #define R                  __m256d
@@ -222,6 +226,12 @@ static inline double r_maximum(R a) {
     double largest = lane[0];
     for (int i = 1; i < GI_DOUBLES; i++) largest = largest > lane[i] ? largest : lane[i];
     return largest;
+}
+/* Numbers of 32 bits beside the doubles: store where the bits are; bits of those equal to value. */
+static inline unsigned u_equal(const uint32_t *p, uint32_t value) {
+    unsigned bits = 0;
+    for (int i = 0; i < GI_DOUBLES; i++) bits |= (unsigned)(p[i] == value) << i;
+    return bits;
 }
 static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
     for (int i = 0; i < GI_DOUBLES; i++) {
