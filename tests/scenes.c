@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "scenes.h"
 
+#include "random.h"
 #include "test.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,6 +43,55 @@ GlintScene *scene_from_file(const char *path, const char *isa, int thread_count)
     GlintError error = {0};
     GlintStatus status = glint_scene_load_file(scene, path, NULL, &error);
     return commit(scene, status, &error);
+}
+
+const char *const small_scene =
+    "<scene dialect='glint'><camera><viewPoint>0 0 6</viewPoint></camera><image>70 66</image>\n"
+    "<light><position>3 4 5</position></light><light type='AmbientLight'/>\n"
+    "<shader name='s' type='Phong'><exponent>5</exponent></shader>\n"
+    "<surface type='Sphere'><shader ref='s'/></surface>\n"
+    "<surface type='Group'><translate>1 1 0</translate><rotate>1 2 3</rotate>\n"
+    "<surface type='Box'><maxPt>1 1 1</maxPt></surface>\n"
+    "<surface type='Cone'><tipz>1</tipz></surface></surface></scene>\n";
+
+GlintScene *new_scene(void) {
+    GlintSceneDesc desc = glint_scene_desc_default();
+    desc.thread_count = 2;
+    GlintScene *scene = NULL;
+    CHECK_INT(glint_scene_create(&desc, &scene, NULL), GLINT_OK);
+    return scene;
+}
+
+GlintStatus load_text(GlintScene *scene, const char *xml, GlintError *error) {
+    return glint_scene_load_memory(scene, xml, strlen(xml), "x.xml", NULL, error);
+}
+
+char *large_text(int count) {
+    char *text = malloc((size_t)count * 120 + 500), *to = text;
+    if (text == NULL) return NULL;
+    to += sprintf(to, "<scene dialect='glint'><camera><viewPoint>0 0 9</viewPoint></camera>"
+                      "<image>200 200</image><light><position>5 6 7</position></light>\n");
+    Random random = {8};
+    for (int i = 0; i < count; i++) {
+        GiVec p = random_vec(&random, -4, 4);
+        to += sprintf(to,
+            "<surface type='Sphere'><center>%.3f %.3f %.3f</center><radius>.05</radius>"
+            "</surface>\n",
+            p.x, p.y, p.z);
+    }
+    sprintf(to, "</scene>");
+    return text;
+}
+
+int64_t read_stream(void *user, void *buffer, size_t size) {
+    Stream *stream = user;
+    if (stream->at >= stream->fail_at) return -1;
+    size_t left = stream->size - stream->at;
+    if (size > left) size = left;
+    if (stream->step > 0 && size > stream->step) size = stream->step;
+    memcpy(buffer, stream->text + stream->at, size);
+    stream->at += size;
+    return (int64_t)size;
 }
 
 Picture picture_of_scene(GlintScene *scene, const GlintRenderDesc *desc) {
@@ -89,6 +140,16 @@ bool picture_equal(const Picture *a, const Picture *b) {
     if (a->width != b->width || a->height != b->height) return false;
     size_t count = (size_t)a->width * (size_t)a->height * 3;
     return memcmp(a->pixels, b->pixels, count * sizeof *a->pixels) == 0;
+}
+
+void check_color(
+    const char *file, int line, const char *what, GiVec actual, double r, double g, double b) {
+    double tolerance = 1e-6 * (1 + fabs(r) + fabs(g) + fabs(b));
+    if (!(fabs(actual.x - r) <= tolerance && fabs(actual.y - g) <= tolerance &&
+            fabs(actual.z - b) <= tolerance)) {
+        test_fail(file, line, "%s: (%.9g %.9g %.9g), not (%.9g %.9g %.9g)", what, actual.x,
+            actual.y, actual.z, r, g, b);
+    }
 }
 
 uint64_t hash_bytes(const void *bytes, size_t size) {
