@@ -16,8 +16,9 @@
 #define ROOMS(X)                                                                                   \
     X(base)                                                                                        \
     X(math)                                                                                        \
-    X(reader) X(hit) X(shape) X(kernel) X(image) X(file) X(radiance) X(render) X(golden) X(api)    \
-        X(load) X(life)
+    X(reader)                                                                                      \
+    X(hit) X(shape) X(kernel) X(image) X(file) X(radiance) X(render) X(golden) X(api) X(load)      \
+        X(life)
 
 #define DECLARE(room) extern const GiTest tests_##room[];
 ROOMS(DECLARE)

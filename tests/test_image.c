@@ -281,7 +281,8 @@ static void pieces_depend_on_bytes_alone(void) {
                 size_t skip = next_random(&state) % (COUNT - 1);
                 CHECK(gi_deflate_piece(deflater, code, bytes + skip, COUNT - skip, other) > 0);
             }
-            size_t other_size = gi_deflate_piece(deflater, code, from, size, run == 0 ? first : other);
+            size_t other_size =
+                gi_deflate_piece(deflater, code, from, size, run == 0 ? first : other);
             if (run == 0) first_size = other_size;
             CHECK_INT(other_size, first_size);
             CHECK(run == 0 || memcmp(first, other, first_size) == 0);
