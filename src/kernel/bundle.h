@@ -198,19 +198,20 @@ static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
 
 /* ---------------------------------------------------------------- culling */
 
-/* The smallest value of p . n over boxes relative to the apex. */
+/* x * nx + y * ny + z * nz */
+static inline F frame_dot(const float n[3], F x, F y, F z) {
+    return f_fused(f_of(n[0]), x, f_fused(f_of(n[1]), y, f_of(n[2]) * z));
+}
+
+/* The smallest and the largest value of p . n over boxes relative to the apex. */
 static inline F smallest_dot(const float n[3], const F low[3], const F high[3]) {
-    F x = f_of(n[0]) * (n[0] >= 0 ? low : high)[0];
-    F y = f_of(n[1]) * (n[1] >= 0 ? low : high)[1];
-    F z = f_of(n[2]) * (n[2] >= 0 ? low : high)[2];
-    return x + y + z;
+    return frame_dot(n, (n[0] >= 0 ? low : high)[0], (n[1] >= 0 ? low : high)[1],
+        (n[2] >= 0 ? low : high)[2]);
 }
 
 static inline F largest_dot(const float n[3], const F low[3], const F high[3]) {
-    F x = f_of(n[0]) * (n[0] >= 0 ? high : low)[0];
-    F y = f_of(n[1]) * (n[1] >= 0 ? high : low)[1];
-    F z = f_of(n[2]) * (n[2] >= 0 ? high : low)[2];
-    return x + y + z;
+    return frame_dot(n, (n[0] >= 0 ? high : low)[0], (n[1] >= 0 ? high : low)[1],
+        (n[2] >= 0 ? high : low)[2]);
 }
 
 /* Bits of the children whose boxes reach into the frustum; their nearest depths in enter[8]. */
@@ -240,8 +241,6 @@ typedef struct Rectangles {
     float a0[8], a1[8], b0[8], b1[8], near[8];
 } Rectangles;
 
-static inline F widening(F a) { return f_of(GI_WIDER) * (f_of(1) + f_max(a, f_of(0) - a)); }
-
 /* From centres and half extents along u, v, w: (x +- e) / z over all z of the shape, which is
  * farthest out at the nearest or the farthest z. A shape that reaches the apex' own plane covers
  * everything. Returns the bits of those that may concern the tile. */
@@ -254,10 +253,12 @@ static inline unsigned rectangles_of(
     F y0 = center[1] - extent[1], y1 = center[1] + extent[1];
     F a0 = f_min(x0 * near_scale, x0 * far_scale), a1 = f_max(x1 * near_scale, x1 * far_scale);
     F b0 = f_min(y0 * near_scale, y0 * far_scale), b1 = f_max(y1 * near_scale, y1 * far_scale);
-    a0 = a0 - widening(a0);
-    a1 = a1 + widening(a1);
-    b0 = b0 - widening(b0);
-    b1 = b1 + widening(b1);
+    /* Rays have |a|, |b| < 2.3 (tile_packets), so this is more than their rounding. */
+    F wider = f_of(4 * GI_WIDER);
+    a0 = a0 - wider;
+    a1 = a1 + wider;
+    b0 = b0 - wider;
+    b1 = b1 + wider;
     f_store(rectangles->a0 + i, a0);
     f_store(rectangles->a1 + i, a1);
     f_store(rectangles->b0 + i, b0);
@@ -273,10 +274,6 @@ static inline unsigned rectangles_of(
         rectangles->a1[lane] = rectangles->b1[lane] = INFINITY;
     }
     return ((in & reaching) | around) << i;
-}
-
-static inline F frame_dot(const float n[3], F x, F y, F z) {
-    return f_of(n[0]) * x + f_of(n[1]) * y + f_of(n[2]) * z;
 }
 
 static inline unsigned tile_spheres(
@@ -435,6 +432,7 @@ static inline bool test_closest(Tile *tile, GiShapeRef ref, int packet, unsigned
 static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
     GiBundle *bundle = tile->bundle;
     unsigned stopped = 0;
+    rays &= ~sixteen_equal(ref.bits, bundle->skip + packet * GI_PACKET_SIZE);
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
@@ -442,7 +440,7 @@ static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned ray
         R t;
         M hit = gi_wide_shape(tile->trace->shapes, ref, &ray, r_load(bundle->t_min + i),
             r_load(bundle->t_max + i), &t);
-        unsigned bits = m_bits(hit) & rays >> j & ~u_equal(bundle->skip + i, ref.bits);
+        unsigned bits = m_bits(hit) & rays >> j;
         u_store_where(bundle->shape + i, bits, ref.bits);
         stopped |= bits << j;
     }

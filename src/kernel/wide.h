@@ -55,7 +55,8 @@ static inline F f_load(const float *p) { return _mm256_loadu_ps(p); }
 static inline void f_store(float *p, F a) { _mm256_storeu_ps(p, a); }
 static inline F f_min(F a, F b) { return _mm256_min_ps(a, b); }
 static inline F f_max(F a, F b) { return _mm256_max_ps(a, b); }
-static inline F f_sqrt(F a) { return _mm256_sqrt_ps(a); }
+/* a * b + c. Culling may round once or twice, so unlike the exact tests it may fuse. */
+static inline F f_fused(F a, F b, F c) { return _mm256_fmadd_ps(a, b, c); }
 #ifdef GI_IS_AVX512
 static inline unsigned f_less_equal(F a, F b) { return _mm256_cmp_ps_mask(a, b, _CMP_LE_OQ); }
 #else
@@ -71,7 +72,7 @@ static inline F f_load(const float *p) { return _mm_loadu_ps(p); }
 static inline void f_store(float *p, F a) { _mm_storeu_ps(p, a); }
 static inline F f_min(F a, F b) { return _mm_min_ps(a, b); }
 static inline F f_max(F a, F b) { return _mm_max_ps(a, b); }
-static inline F f_sqrt(F a) { return _mm_sqrt_ps(a); }
+static inline F f_fused(F a, F b, F c) { return a * b + c; }
 static inline unsigned f_less_equal(F a, F b) {
     return (unsigned)_mm_movemask_ps(_mm_cmple_ps(a, b));
 }
@@ -83,7 +84,7 @@ static inline F f_load(const float *p) { return *p; }
 static inline void f_store(float *p, F a) { *p = a; }
 static inline F f_min(F a, F b) { return a < b ? a : b; }
 static inline F f_max(F a, F b) { return a > b ? a : b; }
-static inline F f_sqrt(F a) { return sqrtf(a); }
+static inline F f_fused(F a, F b, F c) { return a * b + c; }
 static inline unsigned f_less_equal(F a, F b) { return a <= b; }
 #endif
 
@@ -107,6 +108,17 @@ static inline unsigned sixteen_up_to(float x, const float p[16]) {
     return bits;
 }
 #endif
+
+/* Bits of those of sixteen that equal value. */
+static inline unsigned sixteen_equal(uint32_t value, const uint32_t p[16]) {
+#if defined(GI_IS_AVX512)
+    return _mm512_cmpeq_epi32_mask(_mm512_set1_epi32((int)value), _mm512_loadu_si512(p));
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < 16; i++) bits |= (unsigned)(p[i] == value) << i;
+    return bits;
+#endif
+}
 
 /* Writes base + i for every bit i of sixteen, in order, and returns how many. There must be room
  * for sixteen. */
@@ -150,10 +162,6 @@ static inline double r_maximum(R a) { return _mm512_reduce_max_pd(a); }
 static inline void r_store_floats(float *p, R a) { _mm256_storeu_ps(p, _mm512_cvtpd_ps(a)); }
 static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
     _mm256_mask_storeu_epi32(p, (__mmask8)bits, _mm256_set1_epi32((int)value));
-}
-static inline unsigned u_equal(const uint32_t *p, uint32_t value) {
-    __m256i all = _mm256_loadu_si256((const __m256i *)(const void *)p);
-    return _mm256_cmpeq_epi32_mask(all, _mm256_set1_epi32((int)value));
 }
 #elif defined(GI_IS_AVX2)
 enum { GI_DOUBLES = 4 };
@@ -226,12 +234,6 @@ static inline double r_maximum(R a) {
     double largest = lane[0];
     for (int i = 1; i < GI_DOUBLES; i++) largest = largest > lane[i] ? largest : lane[i];
     return largest;
-}
-/* Numbers of 32 bits beside the doubles: store where the bits are; bits of those equal to value. */
-static inline unsigned u_equal(const uint32_t *p, uint32_t value) {
-    unsigned bits = 0;
-    for (int i = 0; i < GI_DOUBLES; i++) bits |= (unsigned)(p[i] == value) << i;
-    return bits;
 }
 static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
     for (int i = 0; i < GI_DOUBLES; i++) {
