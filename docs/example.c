@@ -55,7 +55,7 @@ int main(void) {
                 hit.normal[0], hit.normal[1], hit.normal[2]);
         }
     } else {
-        fprintf(stderr, "%s\n", error.message);
+        fprintf(stderr, "%s%s%s\n", error.path, error.path[0] != '\0' ? ": " : "", error.message);
     }
     glint_scene_destroy(scene);
     return status == GLINT_OK ? 0 : 1;

@@ -26,11 +26,9 @@
 enum { LINK_LIMIT = 40, NAME_ATTEMPTS = 100 };
 
 static GlintStatus report(const char *verb, const char *path, int code, GlintError *error) {
-    /* A path that would push the reason out of the message loses its beginning. */
-    size_t length = strlen(path);
-    const char *dots = length > 160 ? "..." : "", *tail = length > 160 ? path + length - 160 : path;
+    /* The path stands beside the message. */
     return gi_error_set_path(
-        error, GLINT_ERROR_FILE, path, "cannot %s %s%s: %s", verb, dots, tail, strerror(code));
+        error, GLINT_ERROR_FILE, path, "cannot %s the file: %s", verb, strerror(code));
 }
 
 /* ---------------------------------------------------------------- writing */
