@@ -293,6 +293,29 @@ static void groups(void) {
     unload();
 }
 
+/* Numbers that are too large in one order of the transforms only, here the one of 2017b. */
+static void group_order(void) {
+    static const char text[] =
+        BEGIN "\n<surface type='Group'><translate>1e200 0 0</translate><scale>1e200 1 1</scale>"
+              "</surface>" END;
+    static const struct {
+        GlintDialect dialect;
+        const char *begin;
+    } rows[] = {{GLINT_DIALECT_GLINT, ""}, {GLINT_DIALECT_2012, ""},
+        {GLINT_DIALECT_2017B, "2:1: the transform of this group cannot be inverted"},
+        {GLINT_DIALECT_2018B, "2:1: the transform of this group cannot be inverted"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        for (size_t chunk = 0; chunk < 3; chunk++) {
+            Input input = {.head = text, .head_size = sizeof text - 1};
+            load_input(input, chunk, rows[i].dialect, NULL);
+            size_t length = strlen(rows[i].begin);
+            CHECK_INT(loaded.count, length > 0);
+            CHECK(strncmp(loaded.findings, rows[i].begin, length) == 0);
+            unload();
+        }
+    }
+}
+
 static void dialects(void) {
     static const struct {
         const char *text;
@@ -584,6 +607,6 @@ static void failing_source(void) {
 
 const GiTest tests_reader[] = {TEST(numbers), TEST(not_numbers), TEST(tables), TEST(suggestions),
     TEST(defaults), TEST(values), TEST(last_one_wins), TEST(comments_inside), TEST(cones),
-    TEST(names), TEST(groups), TEST(dialects), TEST(encodings), TEST(malformed), TEST(formatting),
-    TEST(long_lines), TEST(many_errors), TEST(hostile), TEST(cut_anywhere), TEST(chunks),
-    TEST(failing_allocator), TEST(failing_source), TEST_END};
+    TEST(names), TEST(groups), TEST(group_order), TEST(dialects), TEST(encodings), TEST(malformed),
+    TEST(formatting), TEST(long_lines), TEST(many_errors), TEST(hostile), TEST(cut_anywhere),
+    TEST(chunks), TEST(failing_allocator), TEST(failing_source), TEST_END};

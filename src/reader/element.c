@@ -238,6 +238,12 @@ void gi_type_list_text(GiKind kind, char *buffer, size_t size) {
     list_types(kind, UINT32_MAX, &list);
 }
 
+/* Whether "an" goes before the word; "RGB" is spelled, so that it begins with a vowel. */
+static bool takes_an(const char *word) {
+    bool spelled = word[0] >= 'A' && word[0] <= 'Z' && word[1] >= 'A' && word[1] <= 'Z';
+    return word[0] != '\0' && strchr(spelled ? "AEFHILMNORSX" : "AEIOUaeiou", word[0]) != NULL;
+}
+
 void gi_context_text(uint32_t contexts, char *buffer, size_t size) {
     static const GiKind kinds[] = {
         GI_KIND_SCENE, GI_KIND_CAMERA, GI_KIND_SURFACE, GI_KIND_SHADER, GI_KIND_LIGHT};
@@ -257,10 +263,9 @@ void gi_context_text(uint32_t contexts, char *buffer, size_t size) {
             char types[200], phrase[240];
             Enumeration inner = {.buffer = types, .size = sizeof types};
             list_types(kinds[i], some, &inner);
-            bool vowel = strchr("AEIOU", types[0]) != NULL;
             const char *noun = strchr(gi_kind_text(kinds[i]), ' ') + 1;
             bool named = kinds[i] == GI_KIND_LIGHT; /* "PointLight" says it */
-            snprintf(phrase, sizeof phrase, "%s %s%s%s", vowel ? "an" : "a", types,
+            snprintf(phrase, sizeof phrase, "%s %s%s%s", takes_an(types) ? "an" : "a", types,
                 named ? "" : " ", named ? "" : noun);
             enumerate(&list, phrase);
         }

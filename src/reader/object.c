@@ -231,6 +231,46 @@ static bool find_tip(
     return false;
 }
 
+static bool group_is_good(const GiScene *scene, uint32_t group, GlintDialect dialect) {
+    GiAffine matrix;
+    return gi_scene_group_matrix(
+        scene, &scene->groups.data[group], gi_dialect_rules(dialect), &matrix);
+}
+
+static void report_group(GiReader *reader, GiPlace place) {
+    gi_report_add(&reader->report, place, 8,
+        "the transform of this group cannot be inverted: it flattens the group, or its numbers "
+        "are too large or too small");
+}
+
+/* The product has the same determinant in either order of its factors, but numbers may overflow in
+ * one order only. Which order counts is known at the end of the file. */
+static bool check_group(GiReader *reader, GiFrame *frame) {
+    bool last_first = group_is_good(reader->scene, frame->index, GLINT_DIALECT_GLINT);
+    bool first_first = group_is_good(reader->scene, frame->index, GLINT_DIALECT_2017B);
+    if (last_first && first_first) return true;
+    if (!last_first && !first_first) {
+        report_group(reader, frame->place);
+        return false;
+    }
+    GiDoubtfulGroup doubtful = {frame->index, frame->place};
+    gi_window_locate(&reader->window, &doubtful.place);
+    if (!gi_array_push(reader->memory, &reader->doubtful, doubtful)) {
+        gi_reader_out_of_memory(reader);
+        return false;
+    }
+    return true;
+}
+
+void gi_object_check_groups(GiReader *reader, GlintDialect dialect) {
+    for (size_t i = 0; i < reader->doubtful.count; i++) {
+        const GiDoubtfulGroup *doubtful = &reader->doubtful.data[i];
+        if (!group_is_good(reader->scene, doubtful->group, dialect)) {
+            report_group(reader, doubtful->place);
+        }
+    }
+}
+
 static bool add_shape(GiReader *reader, GiFrame *frame, GiShapeRef *ref) {
     GiScene *scene = reader->scene;
     GiVec center = slot(reader, GI_SLOT_CENTER);
@@ -261,17 +301,8 @@ static bool add_shape(GiReader *reader, GiFrame *frame, GiShapeRef *ref) {
             scene, slot(reader, GI_SLOT_POINT), slot(reader, GI_SLOT_NORMAL), radius, shader, ref);
         break;
     case GLINT_SURFACE_GROUP: {
-        GiAffine matrix;
         *ref = gi_shape_ref(GI_SHAPE_GROUP, frame->index);
-        /* Whether a product is singular does not depend on the order of its factors. */
-        if (!gi_scene_group_matrix(scene, &scene->groups.data[frame->index],
-                gi_dialect_rules(GLINT_DIALECT_GLINT), &matrix)) {
-            gi_report_add(&reader->report, frame->place, 8,
-                "the transform of this group cannot be inverted: it flattens the group, or its "
-                "numbers are too large or too small");
-            return false;
-        }
-        return true;
+        return check_group(reader, frame);
     }
     }
     if (!added) gi_reader_out_of_memory(reader);

@@ -265,6 +265,7 @@ static void close_reader(GiReader *reader) {
     gi_array_free(reader->memory, &reader->frames);
     gi_array_free(reader->memory, &reader->tags);
     gi_array_free(reader->memory, &reader->cameras);
+    gi_array_free(reader->memory, &reader->doubtful);
     gi_names_reset(&reader->names);
     gi_report_reset(&reader->report);
     gi_window_reset(&reader->window);
@@ -277,6 +278,11 @@ GlintStatus gi_reader_load(
     if (reader == NULL) return gi_error_memory(error);
     open_reader(reader, scene);
     GlintStatus status = open_parser(reader) ? parse(reader, &feed, error) : gi_error_memory(error);
+    GlintDialect dialect = source->dialect != GLINT_DIALECT_AUTO ? source->dialect
+                           : reader->dialect != GLINT_DIALECT_AUTO
+                               ? reader->dialect
+                               : gi_dialect_detect(reader->evidence);
+    if (status == GLINT_OK && !reader->out_of_memory) gi_object_check_groups(reader, dialect);
     if (status == GLINT_OK && (reader->out_of_memory || reader->report.out_of_memory)) {
         status = gi_error_memory(error);
     }
@@ -292,12 +298,7 @@ GlintStatus gi_reader_load(
             status = GLINT_ERROR_SCENE;
         }
     }
-    if (status == GLINT_OK) {
-        scene->dialect = source->dialect != GLINT_DIALECT_AUTO ? source->dialect
-                         : reader->dialect != GLINT_DIALECT_AUTO
-                             ? reader->dialect
-                             : gi_dialect_detect(reader->evidence);
-    }
+    if (status == GLINT_OK) scene->dialect = dialect;
     if (result != NULL) result->byte_count = feed.total;
     close_reader(reader);
     gi_memory_free(scene->memory, reader, sizeof *reader);

@@ -48,6 +48,12 @@ typedef struct GiSlotValue {
     GiPlace place;
 } GiSlotValue;
 
+/* A group whose transform is good in one order of its steps only. */
+typedef struct GiDoubtfulGroup {
+    uint32_t group;
+    GiPlace place;
+} GiDoubtfulGroup;
+
 typedef struct GiReader {
     GiScene *scene;
     GiMemory *memory;
@@ -59,6 +65,7 @@ typedef struct GiReader {
     GI_ARRAY(GiFrame) frames;
     GI_ARRAY(char) tags;
     GI_ARRAY(GiCamera) cameras; /* the named ones */
+    GI_ARRAY(GiDoubtfulGroup) doubtful;
     GiSlotValue slots[GI_SLOT_COUNT];
     uint64_t given; /* a bit per slot */
     GiVec defaults[GI_SLOT_COUNT];
@@ -120,6 +127,8 @@ void gi_object_set(
     GiReader *reader, GiFrame *parent, const GiElement *element, GiVec value, GiPlace place);
 /* Adds the object of the frame to the model and tells the names and the parent. */
 void gi_object_finish(GiReader *reader, GiFrame *frame, GiFrame *parent);
+/* Reports the groups whose transform is no good in the dialect that the file turned out to have. */
+void gi_object_check_groups(GiReader *reader, GlintDialect dialect);
 /* Uses a named thing as if it had been written here. */
 void gi_object_refer(GiReader *reader, GiFrame *frame, GiFrame *parent, const GiNamed *named);
 /* Remembers what the frame stands for under its name, when it has one. */

@@ -3,6 +3,7 @@
  * the attributes mean. What the elements amount to is decided in object.c. */
 #include "reader/state.h"
 
+#include "reader/later.h"
 #include "reader/suggest.h"
 
 #include <string.h>
@@ -133,6 +134,12 @@ static const GiElement *report_element(
     if (elsewhere == NULL && size == 5 && gi_edit_distance(tag, 5, "scene", 5, 0) == 0) {
         gi_report_add(
             report, place, length, "`scene` is the root element and cannot stand in %s", here);
+        return NULL;
+    }
+    const GiLater *later = gi_later_element(tag);
+    if (later != NULL) {
+        reader->evidence |= later->evidence;
+        gi_report_add(report, place, length, "`%s` is not supported yet", later->name);
         return NULL;
     }
     if (elsewhere != NULL) {
@@ -300,6 +307,13 @@ static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attrib
     }
     int length;
     GiPlace place = gi_tree_attribute(reader, attributes->type_index, true, &length);
+    const GiLater *later = gi_later_type(name, kind);
+    if (later != NULL) {
+        reader->evidence |= later->evidence;
+        frame->skip = GI_SKIP_UNKNOWN;
+        gi_report_add(&reader->report, place, length, "`%s` is not supported yet", later->name);
+        return;
+    }
     gi_quote(quote, name, strlen(name));
     gi_type_list_text(kind, list, sizeof list);
     for (const GiType *type = gi_types; type->name != NULL; type++) {
@@ -438,6 +452,11 @@ void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **lis
         return;
     }
     if (element->kind != GI_KIND_SCENE) read_type(reader, frame, &attributes);
+    if (frame->skip == GI_SKIP_UNKNOWN) {
+        parent->broken = true;
+        name_skipped(reader, list);
+        return;
+    }
     frame->contexts = frame->type != NULL ? frame->type->context : gi_kind_contexts(element->kind);
     gi_object_begin(reader, frame);
 }
