@@ -251,7 +251,7 @@ GlintStatus glint_scene_set_image(
     model->height = desc->height;
     model->samples = desc->samples;
     model->back_color = gi_vec_from(desc->back_color);
-    if (desc->exposure > 0) model->exposure = desc->exposure;
+    model->exposure = desc->exposure > 0 ? desc->exposure : 1;
     return GLINT_OK;
 }
 

@@ -298,6 +298,27 @@ static void ids_and_groups(void) {
     glint_scene_destroy(scene);
 }
 
+/* Of two calls nothing of the first remains; an exposure that is not positive counts as 1. */
+static void last_image_counts(void) {
+    GlintScene *scene = new_scene();
+    GlintImageDesc image = glint_image_desc_default();
+    image.width = image.height = 3;
+    image.back_color[0] = 0.25;
+    image.exposure = 4;
+    CHECK_INT(glint_scene_set_image(scene, &image, NULL), GLINT_OK);
+    image.height = 1;
+    image.exposure = -1;
+    CHECK_INT(glint_scene_set_image(scene, &image, NULL), GLINT_OK);
+    GlintCameraDesc camera = glint_camera_desc_default();
+    CHECK_INT(glint_scene_set_camera(scene, &camera, NULL), GLINT_OK);
+    CHECK_INT(glint_scene_commit(scene, NULL, NULL), GLINT_OK);
+    Picture picture = picture_of_scene(scene, NULL);
+    CHECK(picture.width == 3 && picture.height == 1);
+    CHECK_COLOR("background", picture_at(&picture, 0, 0), 0.25, 0, 0);
+    picture_free(&picture);
+    glint_scene_destroy(scene);
+}
+
 /* The traced normal at every pixel is the colour of the picture. */
 static void trace_agrees_with_picture(void) {
     GlintSurfaceId ids[4];
@@ -360,5 +381,5 @@ static void example_as_cpp(void) {
 }
 
 const GiTest tests_api[] = {TEST(names), TEST(defaults), TEST(missing_defaults), TEST(arguments),
-    TEST(crops_out_of_range), TEST(ids_and_groups), TEST(trace_agrees_with_picture), TEST(example),
-    TEST(example_as_cpp), TEST_END};
+    TEST(crops_out_of_range), TEST(ids_and_groups), TEST(last_image_counts),
+    TEST(trace_agrees_with_picture), TEST(example), TEST(example_as_cpp), TEST_END};
