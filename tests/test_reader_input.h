@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Loading a scene from text in memory, with its findings kept as text. For test_reader.c. */
+ * Loading a scene from text in memory, with its findings kept as text. For the tests of the
+ * reader. */
 #pragma once
 
 #include "test.h"
@@ -9,6 +10,10 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Round the middle of a scene that is complete. */
+#define BEGIN "<scene><camera/><image>4 2</image>"
+#define END   "</scene>"
+
 /* A source: text, then a filler repeated, then text again; so that huge files need no memory. */
 typedef struct Input {
     const char *head, *filler, *tail;
@@ -16,7 +21,7 @@ typedef struct Input {
     bool fails;
 } Input;
 
-static int64_t read_input(void *user, void *buffer, size_t size) {
+static inline int64_t read_input(void *user, void *buffer, size_t size) {
     Input *input = user;
     char *out = buffer;
     size_t body = input->head_size + input->filler_size * input->filler_count, done = 0;
@@ -47,7 +52,7 @@ typedef struct Loaded {
     size_t peak_extra; /* bytes in use at once beyond what the scene kept */
 } Loaded;
 
-static void on_diagnostic(void *user, const GlintDiagnostic *diagnostic) {
+static inline void on_diagnostic(void *user, const GlintDiagnostic *diagnostic) {
     Loaded *loaded = user;
     size_t length = strlen(loaded->findings), printed = strlen(loaded->printed);
     snprintf(loaded->findings + length, sizeof loaded->findings - length, "%lld:%lld: %s\n",
@@ -59,7 +64,7 @@ static void on_diagnostic(void *user, const GlintDiagnostic *diagnostic) {
 
 static Loaded loaded; /* one at a time */
 
-static Loaded *load_input(
+static inline Loaded *load_input(
     Input input, size_t chunk_size, GlintDialect dialect, const GlintAllocator *allocator) {
     memset(&loaded, 0, sizeof loaded);
     gi_memory_init(&loaded.memory, allocator, (size_t)4 << 30);
@@ -80,14 +85,15 @@ static Loaded *load_input(
     return &loaded;
 }
 
-static Loaded *load_bytes(const char *bytes, size_t size, size_t chunk_size) {
+static inline Loaded *load_bytes(const char *bytes, size_t size, size_t chunk_size) {
     Input input = {.head = bytes, .head_size = size};
     return load_input(input, chunk_size, GLINT_DIALECT_AUTO, NULL);
 }
 
-static Loaded *load(const char *text) { return load_bytes(text, strlen(text), 0); }
+static inline Loaded *load(const char *text) { return load_bytes(text, strlen(text), 0); }
 
-static Loaded *load_filled(const char *head, const char *filler, size_t count, const char *tail) {
+static inline Loaded *load_filled(
+    const char *head, const char *filler, size_t count, const char *tail) {
     Input input = {.head = head, .filler = filler, .tail = tail, .filler_count = count};
     input.head_size = strlen(head);
     input.filler_size = strlen(filler);
@@ -95,7 +101,7 @@ static Loaded *load_filled(const char *head, const char *filler, size_t count, c
     return load_input(input, 0, GLINT_DIALECT_AUTO, NULL);
 }
 
-static void unload(void) {
+static inline void unload(void) {
     gi_scene_reset(&loaded.scene);
     CHECK_INT(loaded.memory.used, 0);
 }
