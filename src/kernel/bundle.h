@@ -4,7 +4,7 @@
  * In the plane at depth 1 along the bundle's axis w every ray is a point (a, b), sixteen of them (a
  * packet) a rectangle, and all of them a larger rectangle: a frustum of four planes, against which
  * nodes are tested once for all rays. A shape is a rectangle too, with a nearest depth; five
- * comparisons for all packets at once tell which packets it may concern, five more which rays of a
+ * comparisons for sixteen packets at once tell which packets it may concern, five more which rays of a
  * packet, and only those are tested exactly. (After Reshetov 2005, Overbeck 2008 and Davidovic
  * 2012.)
  *
@@ -62,6 +62,12 @@ typedef struct Tile {
 } Tile;
 
 /* ---------------------------------------------------------------- set-up */
+
+/* A packet that nothing concerns. */
+static inline void packet_clear(Packets *packets, int k) {
+    packets->a0[k] = packets->b0[k] = INFINITY;
+    packets->a1[k] = packets->b1[k] = packets->far[k] = -INFINITY;
+}
 
 /* Rays that fill up the last packet: copies of the first whose interval is empty. */
 static inline void tile_pad(GiBundle *bundle) {
@@ -121,8 +127,7 @@ static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiV
     M oblique = M_OF(false);
     for (int k = 0; k < GI_PACKET_COUNT; k++) {
         if (k * GI_PACKET_SIZE >= bundle->count) {
-            packets->a0[k] = packets->b0[k] = INFINITY;
-            packets->a1[k] = packets->b1[k] = packets->far[k] = -INFINITY;
+            packet_clear(packets, k);
             tile->alive[k] = 0;
             continue;
         }
@@ -312,13 +317,15 @@ static inline unsigned tile_boxes(
     return bits;
 }
 
-/* Bits of the packets that the rectangle of one shape overlaps, nearer than they look. */
-static inline unsigned tile_overlaps(const Packets *packets, const Rectangles *shapes, int lane) {
-    return sixteen_from(shapes->a0[lane], packets->a1) &
-           sixteen_up_to(shapes->a1[lane], packets->a0) &
-           sixteen_from(shapes->b0[lane], packets->b1) &
-           sixteen_up_to(shapes->b1[lane], packets->b0) &
-           sixteen_from(shapes->near[lane], packets->far);
+/* Of the sixteen packets from `first` on, bits of those that the rectangle of one shape overlaps,
+ * nearer than they look. */
+static inline unsigned tile_overlaps(
+    const Packets *packets, const Rectangles *shapes, int lane, int first) {
+    return sixteen_from(shapes->a0[lane], packets->a1 + first) &
+           sixteen_up_to(shapes->a1[lane], packets->a0 + first) &
+           sixteen_from(shapes->b0[lane], packets->b1 + first) &
+           sixteen_up_to(shapes->b1[lane], packets->b0 + first) &
+           sixteen_from(shapes->near[lane], packets->far + first);
 }
 
 /* Bits of the rays of one packet that lie in the rectangle and end behind its nearest point. */
@@ -332,26 +339,17 @@ static inline unsigned tile_rays(const Tile *tile, const Rectangles *shapes, int
 }
 
 static inline void tile_refresh_far(Tile *tile) {
-    float far = -INFINITY;
-    for (int k = 0; k < GI_PACKET_COUNT; k++) {
-        if (tile->packets.far[k] > far) far = tile->packets.far[k];
-    }
-    tile->frustum.far = far;
+    tile->frustum.far = f_highest(tile->packets.far, GI_PACKET_COUNT);
 }
 
 /* Packets without rays left no longer count: the frustum closes round the others. */
 static inline void tile_shrink(Tile *tile) {
     const Packets *packets = &tile->packets;
     Frustum *frustum = &tile->frustum;
-    frustum->a0 = frustum->b0 = INFINITY;
-    frustum->a1 = frustum->b1 = -INFINITY;
-    for (int k = 0; k < GI_PACKET_COUNT; k++) {
-        if (tile->alive[k] == 0) continue;
-        frustum->a0 = packets->a0[k] < frustum->a0 ? packets->a0[k] : frustum->a0;
-        frustum->a1 = packets->a1[k] > frustum->a1 ? packets->a1[k] : frustum->a1;
-        frustum->b0 = packets->b0[k] < frustum->b0 ? packets->b0[k] : frustum->b0;
-        frustum->b1 = packets->b1[k] > frustum->b1 ? packets->b1[k] : frustum->b1;
-    }
+    frustum->a0 = f_lowest(packets->a0, GI_PACKET_COUNT);
+    frustum->a1 = f_highest(packets->a1, GI_PACKET_COUNT);
+    frustum->b0 = f_lowest(packets->b0, GI_PACKET_COUNT);
+    frustum->b1 = f_highest(packets->b1, GI_PACKET_COUNT);
     tile_refresh_far(tile);
     frustum_planes(frustum);
 }
@@ -446,7 +444,7 @@ static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned ray
     }
     tile->alive[packet] &= ~stopped;
     if (stopped == 0 || tile->alive[packet] != 0) return false;
-    tile->packets.far[packet] = -INFINITY;
+    packet_clear(&tile->packets, packet);
     return true;
 }
 
@@ -485,17 +483,20 @@ static inline void tile_block(Tile *tile, uint32_t child) {
         bits = tile_boxes(&tile->frustum, &tree->box_blocks[index], &rectangles);
         shapes = tree->box_blocks[index].shape;
     }
-    uint32_t pairs[GI_TREE_WIDTH * GI_PACKET_COUNT];
+    uint32_t pairs[GI_TREE_WIDTH * GI_PACKET_COUNT + 16];
     int pair_count = 0;
     for (; bits != 0; bits &= bits - 1) {
         int lane = lowest_bit(bits);
-        unsigned packets = tile_overlaps(&tile->packets, &rectangles, lane);
-        pair_count += sixteen_append(pairs + pair_count, packets, (uint32_t)lane << 4);
+        for (int first = 0; first < GI_PACKET_COUNT; first += 16) {
+            unsigned packets = tile_overlaps(&tile->packets, &rectangles, lane, first);
+            pair_count += sixteen_append(
+                pairs + pair_count, packets, (uint32_t)(lane * GI_PACKET_COUNT + first));
+        }
     }
     int count = tile->test_count;
     for (int i = 0; i < pair_count; i++) {
-        int lane = (int)(pairs[i] >> 4);
-        uint32_t packet = pairs[i] & 15;
+        int lane = (int)(pairs[i] / GI_PACKET_COUNT);
+        uint32_t packet = pairs[i] % GI_PACKET_COUNT;
         unsigned rays = tile_rays(tile, &rectangles, lane, (int)packet);
         prefetch_shape(tile->trace->shapes, shapes[lane]);
         tile->tests[count] = (Test){shapes[lane], packet, rays};

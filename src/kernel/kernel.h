@@ -25,14 +25,14 @@ typedef struct GiTraceHit {
     GiShapeRef shape;
 } GiTraceHit;
 
-/* Up to 256 rays whose lines pass through one point, traced together. Neighbours in the arrays,
+/* Up to 1024 rays whose lines pass through one point, traced together. Neighbours in the arrays,
  * sixteen at a time, should be neighbours in space. Two uses:
  *     closest   the rays start at the apex (camera rays)
  *     any       the rays end there: origin + direction is the apex, t_max at most 1 (shadow rays
  *               of a point light)
  * In: everything up to skip. Out: shape (GI_SHAPE_NONE: nothing met) and, for closest, t. */
 enum {
-    GI_BUNDLE_SIZE = 256,
+    GI_BUNDLE_SIZE = 1024,
     GI_PACKET_SIZE = 16,
     GI_PACKET_COUNT = GI_BUNDLE_SIZE / GI_PACKET_SIZE
 };
@@ -45,7 +45,7 @@ typedef struct GiBundle {
     uint32_t skip[GI_BUNDLE_SIZE];
     double t[GI_BUNDLE_SIZE];
     uint32_t shape[GI_BUNDLE_SIZE];
-    int count; /* 1 to 256 */
+    int count; /* 1 to GI_BUNDLE_SIZE */
     GiVec apex;
     GiVec side; /* a direction the packets are aligned with; zero: none known */
     /* Filled in by the kernel: 1 / d where needed, 1 / d.d, depth of the direction along the axis.

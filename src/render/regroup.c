@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
  * Rays become points in the plane across their mean direction, with axes along the cloud's own;
- * each coordinate is replaced by its rank among 64, and the rays are walked along a Hilbert curve.
+ * each coordinate is replaced by its rank among 128, and the rays are walked along a Hilbert curve.
  * Ranks, not lengths: behind a silhouette one far pixel would otherwise push all others into a
  * few cells. One counting sort does the rest, so the whole costs a few nanoseconds a ray. */
 #include "render/regroup.h"
 
 #include <stdbool.h>
 
-enum { BUCKETS = 256, RANKS = 64, CELLS = RANKS * RANKS, KEEP_ORDER = 16 };
+enum { BUCKETS = 512, RANKS = 128, CELLS = RANKS * RANKS, KEEP_ORDER = 16 };
 
 typedef struct Axes {
     float u[3], v[3], w[3];
@@ -122,11 +122,22 @@ static void rank(GiRegroup *regroup, const float *value, int count, int factor) 
     }
 }
 
+/* The curve is the same on a coarser grid, four cells to one; so few rays need few cells. */
+static int coarseness(int count) {
+    int shift = 0;
+    while (shift < 6 && CELLS >> shift >= 4 * count) shift += 2;
+    return shift;
+}
+
 static void sort_by_key(GiRegroup *regroup, int count) {
-    uint16_t start[CELLS + 1] = {0};
-    for (int i = 0; i < count; i++) start[regroup->key[i] + 1]++;
-    for (int i = 0; i < CELLS; i++) start[i + 1] = (uint16_t)(start[i + 1] + start[i]);
-    for (int i = 0; i < count; i++) regroup->order[start[regroup->key[i]]++] = (uint16_t)i;
+    int shift = coarseness(count);
+    uint16_t start[CELLS + 1];
+    for (int i = 0; i <= CELLS >> shift; i++) start[i] = 0;
+    for (int i = 0; i < count; i++) start[(regroup->key[i] >> shift) + 1]++;
+    for (int i = 0; i < CELLS >> shift; i++) start[i + 1] = (uint16_t)(start[i + 1] + start[i]);
+    for (int i = 0; i < count; i++) {
+        regroup->order[start[regroup->key[i] >> shift]++] = (uint16_t)i;
+    }
 }
 
 void gi_regroup(GiRegroup *regroup, int count) {

@@ -7,14 +7,14 @@
 
 #include <stdint.h>
 
-enum { GI_REGROUP_LIMIT = 4096 };
+enum { GI_REGROUP_LIMIT = 16384 };
 
 typedef struct GiRegroup {
     float x[GI_REGROUP_LIMIT], y[GI_REGROUP_LIMIT], z[GI_REGROUP_LIMIT]; /* in: directions */
     uint16_t order[GI_REGROUP_LIMIT];                                    /* out: a permutation */
     /* private */
     float a[GI_REGROUP_LIMIT], b[GI_REGROUP_LIMIT];
-    uint16_t key[GI_REGROUP_LIMIT], curve[64 * 64];
+    uint16_t key[GI_REGROUP_LIMIT], curve[128 * 128];
 } GiRegroup;
 
 void gi_regroup_init(GiRegroup *regroup);

@@ -5,9 +5,11 @@
 #include "shade/shade.h"
 
 enum {
-    BLOCK_SIDE = 16, /* a bundle of camera rays: 16 x 16 pixels */
-    PACKET_SIDE = 4, /* a packet: 4 x 4 */
-    PIXEL_COUNT = GI_TILE_SIDE * GI_TILE_SIDE
+    BLOCK_SIDE = 32,     /* a bundle of camera rays: 32 x 32 pixels */
+    PACKET_SIDE = 4,     /* a packet: 4 x 4 */
+    PACKETS_ACROSS = BLOCK_SIDE / PACKET_SIDE,
+    STRIDE = GI_TILE_SIDE_LIMIT,
+    PIXEL_COUNT = STRIDE * STRIDE
 };
 
 /* A camera ray that met something. */
@@ -31,7 +33,7 @@ struct GiTileScratch {
     GiRegroup regroup;
     Hit hits[PIXEL_COUNT];
     Pending pending[PIXEL_COUNT];
-    double across[GI_TILE_SIDE], up[GI_TILE_SIDE]; /* window coordinates of columns and rows */
+    double across[STRIDE], up[STRIDE]; /* window coordinates of columns and rows */
     GiVec color[PIXEL_COUNT];                      /* of the sample being drawn */
     GiVec sum[PIXEL_COUNT];                        /* of the samples before */
     int hit_count;
@@ -97,8 +99,8 @@ static void trace_block(
     uint32_t pixels[GI_BUNDLE_SIZE];
     int count = 0;
     for (int packet = 0; packet < GI_PACKET_COUNT; packet++) {
-        int packet_x = block_x + packet % PACKET_SIDE * PACKET_SIDE;
-        int packet_y = block_y + packet / PACKET_SIDE * PACKET_SIDE;
+        int packet_x = block_x + packet % PACKETS_ACROSS * PACKET_SIDE;
+        int packet_y = block_y + packet / PACKETS_ACROSS * PACKET_SIDE;
         for (int i = 0; i < GI_PACKET_SIZE; i++) {
             int x = packet_x + i % PACKET_SIDE, y = packet_y + i / PACKET_SIDE;
             if (x >= extent->width || y >= extent->height) continue;
@@ -111,7 +113,7 @@ static void trace_block(
             bundle->t_min[count] = 0;
             bundle->t_max[count] = INFINITY;
             bundle->skip[count] = GI_SHAPE_NONE;
-            pixels[count++] = (uint32_t)(y * GI_TILE_SIDE + x);
+            pixels[count++] = (uint32_t)(y * STRIDE + x);
         }
     }
     if (count == 0) return;
@@ -236,21 +238,23 @@ static void draw_sample(const GiWorld *world, const GiRenderArea *area, const Ex
     }
 }
 
-void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, float *pixels,
+void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side, float *pixels,
     GiTileScratch *scratch, GiRenderCounts *counts, const GiTileControl *control) {
     Extent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
-    if (extent.width > GI_TILE_SIDE) extent.width = GI_TILE_SIDE;
-    if (extent.height > GI_TILE_SIDE) extent.height = GI_TILE_SIDE;
+    if (extent.width > side) extent.width = side;
+    if (extent.height > side) extent.height = side;
     const GiScene *scene = world->scene;
     int n = (int)floor(sqrt((double)scene->samples) + 0.5);
     if (n < 1) n = 1;
-    for (int i = 0; i < PIXEL_COUNT; i++) scratch->sum[i] = gi_vec(0, 0, 0);
+    for (int row = 0; row < extent.height; row++) {
+        for (int i = 0; i < extent.width; i++) scratch->sum[row * STRIDE + i] = gi_vec(0, 0, 0);
+    }
     for (int sample = 0; sample < n * n; sample++) {
         draw_sample(world, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n, scratch,
             counts, control);
         if (stopped(control)) return;
         for (int row = 0; row < extent.height; row++) {
-            for (int i = row * GI_TILE_SIDE; i < row * GI_TILE_SIDE + extent.width; i++) {
+            for (int i = row * STRIDE; i < row * STRIDE + extent.width; i++) {
                 scratch->sum[i] = gi_add(scratch->sum[i], scratch->color[i]);
             }
         }
@@ -259,7 +263,7 @@ void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
     for (int row = 0; row < extent.height; row++) {
         float *to = pixels + 3 * ((size_t)(y + row) * (size_t)area->crop_width + (size_t)x);
         for (int column = 0; column < extent.width; column++) {
-            GiVec sum = scratch->sum[row * GI_TILE_SIDE + column];
+            GiVec sum = scratch->sum[row * STRIDE + column];
             *to++ = (float)(sum.x / (n * n) * exposure);
             *to++ = (float)(sum.y / (n * n) * exposure);
             *to++ = (float)(sum.z / (n * n) * exposure);
