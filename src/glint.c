@@ -124,6 +124,7 @@ GlintStatus glint_scene_load_file(
     GiFileReader file;
     GlintStatus status = gi_file_read_open(&file, path, error);
     if (status != GLINT_OK) return status;
+    file.monitor = monitor;
     GiReaderSource source = {.read = gi_file_read,
         .user = &file,
         .name = path,

@@ -266,9 +266,11 @@ sys.exit(status)
 PY
 check "a reader that went away" test $? -eq 0
 
-# ---- signals: a scene that takes minutes, then a standard input that never ends. The shell starts
-# background jobs deaf to SIGINT, hence Python.
-scene slow.xml "1000 1000" "<samples>1000000</samples>"
+# ---- signals: a scene that takes minutes, then a standard input and a pipe with a name that stay
+# silent. The shell starts background jobs deaf to SIGINT, hence Python.
+scene slow.xml "2000 2000" "<samples>65536</samples>"
+mkfifo silent.xml
+exec 9<>silent.xml
 cat >interrupt.py <<'PY'
 import os, signal, subprocess, sys, time
 number, glint = getattr(signal, sys.argv[1]), sys.argv[2:]
@@ -283,8 +285,8 @@ if time.time() - began > 5: sys.exit("took %.1f s to stop" % (time.time() - bega
 sys.exit(0 if status == -number else "ended with %d" % status)
 PY
 for name in SIGINT SIGTERM; do
-    for input in slow.xml -; do
-        rm -f slow.xml.png stdin.png
+    for input in slow.xml - silent.xml; do
+        rm -f slow.xml.png stdin.png silent.xml.png
         : >after
         ls -A >before
         "$python" interrupt.py $name "$glint" "$input" >out 2>err
@@ -294,6 +296,8 @@ for name in SIGINT SIGTERM; do
         check "$name on '$input' leaves nothing" cmp -s before after
     done
 done
+exec 9>&-
+rm silent.xml
 # What the shell sees: 128 + 2.
 "$python" -c 'import os, signal, sys
 signal.signal(signal.SIGINT, signal.SIG_DFL)

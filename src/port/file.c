@@ -234,15 +234,23 @@ GlintStatus gi_file_read_open(GiFileReader *reader, const char *path, GlintError
     return GLINT_OK;
 }
 
+static bool is_cancelled(const GlintMonitor *monitor) {
+    return monitor != NULL && monitor->cancelled != NULL && monitor->cancelled(monitor->user);
+}
+
 int64_t gi_file_read(void *user, void *buffer, size_t size) {
     GiFileReader *reader = user;
     size_t part = size < (1u << 30) ? size : 1u << 30;
     ssize_t count;
     do {
         count = read(reader->fd, buffer, part);
-    } while (count < 0 && errno == EINTR);
-    if (count < 0 && reader->error == 0) reader->error = errno;
-    return count;
+        if (count >= 0) return count;
+        if (errno != EINTR) {
+            if (reader->error == 0) reader->error = errno;
+            return count;
+        }
+    } while (!is_cancelled(reader->monitor));
+    return -1;
 }
 
 GlintStatus gi_file_read_status(const GiFileReader *reader, GlintError *error) {

@@ -38,14 +38,16 @@ typedef struct GiFileReader {
     int fd;
     int error;
     int64_t size; /* bytes; -1 when it is not a regular file and the end is not known */
+    const GlintMonitor *monitor; /* may be set after opening; null: none */
 } GiFileReader;
 
 /* Opens path for reading from its beginning. A folder is refused. Errors: FILE; there is nothing
  * to close then. */
 GlintStatus gi_file_read_open(GiFileReader *reader, const char *path, GlintError *error);
 
-/* At most size bytes, as many as there are at once; 0 at the end, negative on failure. A
- * GlintReadFn, whose user is the GiFileReader. */
+/* At most size bytes, as many as there are at once; 0 at the end, negative on failure, or when a
+ * signal comes while it waits and the monitor has been cancelled. A GlintReadFn, whose user is the
+ * GiFileReader. */
 int64_t gi_file_read(void *reader, void *buffer, size_t size);
 
 /* GLINT_OK, or GLINT_ERROR_FILE and the reason when gi_file_read has failed. */

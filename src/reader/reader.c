@@ -163,18 +163,26 @@ typedef struct Feed {
     bool ended;
 } Feed;
 
+static bool is_cancelled(const GlintMonitor *monitor) {
+    return monitor != NULL && monitor->cancelled != NULL && monitor->cancelled(monitor->user);
+}
+
+static GlintStatus report_cancelled(GlintError *error) {
+    return gi_error_set(error, GLINT_CANCELLED, "cancelled while reading the scene");
+}
+
 /* Reads up to `wanted` bytes behind the window. */
 static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintError *error) {
     const GiReaderSource *source = feed->source;
     const GlintMonitor *monitor = source->monitor;
     if (!gi_window_reserve(&reader->window, wanted)) return gi_error_memory(error);
     for (size_t got = 0; got < wanted && !feed->ended;) {
-        if (monitor != NULL && monitor->cancelled != NULL && monitor->cancelled(monitor->user)) {
-            return gi_error_set(error, GLINT_CANCELLED, "cancelled while reading the scene");
-        }
+        if (is_cancelled(monitor)) return report_cancelled(error);
         size_t size = wanted - got < CHUNK_SIZE ? wanted - got : CHUNK_SIZE;
         int64_t count = source->read(source->user, reader->window.data + reader->window.size, size);
         if (count < 0 || (uint64_t)count > size) {
+            /* A source that waits may give up because of that. */
+            if (is_cancelled(monitor)) return report_cancelled(error);
             return gi_error_set_path(
                 error, GLINT_ERROR_FILE, source->name, "the file cannot be read");
         }
