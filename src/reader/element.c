@@ -26,7 +26,7 @@ const GiElement gi_elements[] = {
     ROW("material", GI_IN_SCENE | GI_IN_ANY_SURFACE, SHADER, NONE, NULL,
         .evidence = GI_EVIDENCE_MATERIAL, .alias_of = "shader", .help = "older word for shader"),
     ROW("light", GI_IN_SCENE, LIGHT, NONE, NULL, .help = "a source of light"),
-    ROW("samples", GI_IN_SCENE, INTEGER, SAMPLES, "1", GI_CHECK_NOT_NEGATIVE,
+    ROW("samples", GI_IN_SCENE, INTEGER, SAMPLES, "1", GI_CHECK_SAMPLES,
         .help = "samples per pixel, rounded to a square grid"),
     ROW("backColor", GI_IN_SCENE, COLOR, BACK_COLOR, "0 0 0",
         .help = "linear colour of a ray that hits nothing"),

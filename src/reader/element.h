@@ -47,10 +47,12 @@ typedef enum GiKind {
     GI_KIND_LIGHT
 } GiKind;
 
+enum { GI_SAMPLES_LIMIT = 65536 };
+
 typedef enum GiCheck {
     GI_CHECK_NONE,
     GI_CHECK_POSITIVE,
-    GI_CHECK_NOT_NEGATIVE,
+    GI_CHECK_SAMPLES, /* at most GI_SAMPLES_LIMIT; 0 is read as 1 */
     GI_CHECK_LENGTH,  /* a vector that is not zero */
     GI_CHECK_NO_ZERO, /* no component is zero */
     GI_CHECK_ANGLE,   /* between 0 and 180, both excluded */

@@ -137,11 +137,10 @@ static const char *read_number(const char *text, size_t size, GiKind kind, doubl
         }
         return whole ? "is not a whole number" : "is not a number";
     }
-    if (whole && !is_whole(text, size)) return "is not a whole number";
+    if (whole && *value != floor(*value)) return "is not a whole number";
+    if (whole && fabs(*value) > INT_MAX) return "is too large: the limit is 2147483647";
+    if (whole && !is_whole(text, size)) return "is whole: write it without a point or exponent";
     if (status == GI_NUMBER_TOO_LARGE) return "is too large: the limit is about 1.8e308";
-    if (whole && (*value > INT_MAX || *value < -INT_MAX)) {
-        return "is too large: the limit is 2147483647";
-    }
     return NULL;
 }
 
@@ -246,7 +245,7 @@ static bool passes(GiCheck check, GiVec value) {
     switch (check) {
     case GI_CHECK_NONE: break;
     case GI_CHECK_POSITIVE: return value.x > 0;
-    case GI_CHECK_NOT_NEGATIVE: return value.x >= 0;
+    case GI_CHECK_SAMPLES: return value.x >= 0 && value.x <= GI_SAMPLES_LIMIT;
     case GI_CHECK_LENGTH: return !gi_vec_is_zero(value);
     case GI_CHECK_NO_ZERO: return value.x != 0 && value.y != 0 && value.z != 0;
     case GI_CHECK_ANGLE: return value.x > 0 && value.x < 180;
@@ -265,8 +264,9 @@ bool gi_value_check(
     case GI_CHECK_POSITIVE:
         gi_report_add(report, place, length, "%s must be positive; found %g", name, value.x);
         break;
-    case GI_CHECK_NOT_NEGATIVE:
-        gi_report_add(report, place, length, "%s must not be negative; found %g", name, value.x);
+    case GI_CHECK_SAMPLES:
+        gi_report_add(report, place, length, "%s must be from 1 to %d; found %.0f", name,
+            GI_SAMPLES_LIMIT, value.x);
         break;
     case GI_CHECK_LENGTH:
         gi_report_add(
