@@ -3,6 +3,8 @@
  * byte; the bytes round it tell the rest. */
 #include "reader/state.h"
 
+#include "reader/suggest.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -64,6 +66,30 @@ static bool is_utf8(const GiWindow *window, int64_t offset) {
     return text[0] != '?';
 }
 
+/* `name="a&b"`: the parser stops where the `;` of a reference should be. */
+static bool report_ampersand(GiReader *reader, GiPlace place) {
+    static const char *const known[] = {"lt", "gt", "amp", "quot", "apos"};
+    const GiWindow *window = &reader->window;
+    int unit = gi_window_unit(window);
+    int64_t name = place.offset;
+    while (is_name(gi_window_at(window, name - unit))) name -= unit;
+    int64_t sign = name - unit;
+    if (gi_window_at(window, sign) == '#') sign -= unit;
+    if (gi_window_at(window, sign) != '&') return false;
+    char text[GI_QUOTE_SIZE];
+    int length = name_length(window, name);
+    gi_window_copy(window, name, length, text, sizeof text);
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        if (sign + unit != name || strcmp(text, known[i]) != 0) continue;
+        gi_report_add(&reader->report, (GiPlace){.offset = sign}, length + 1,
+            "a `;` is missing: write `&%s;`", text);
+        return true;
+    }
+    gi_report_add(
+        &reader->report, (GiPlace){.offset = sign}, 1, "write `&amp;` for the character `&`");
+    return true;
+}
+
 static void report_token(GiReader *reader, GiPlace place) {
     const GiWindow *window = &reader->window;
     GiReport *report = &reader->report;
@@ -91,7 +117,8 @@ static void report_token(GiReader *reader, GiPlace place) {
         gi_report_add(report, place, 1, "`--` is not allowed inside a comment");
         return;
     }
-    if (before == '&' || c == '&') {
+    if (report_ampersand(reader, place)) return;
+    if (c == '&') {
         gi_report_add(report, place, 1, "write `&amp;` for the character `&`");
         return;
     }
@@ -123,15 +150,30 @@ static void describe_open(GiReader *reader, char *buffer, size_t size) {
         (long long)frame->place.line);
 }
 
+/* Whether an element that is still open has the tag. */
+static bool is_open(const GiReader *reader, const char *tag) {
+    for (size_t i = 0; i < reader->frames.count; i++) {
+        if (strcmp(reader->tags.data + reader->frames.data[i].tag, tag) == 0) return true;
+    }
+    return false;
+}
+
 static void report_mismatch(GiReader *reader, GiPlace place) {
     char closed[GI_QUOTE_SIZE], open[GI_QUOTE_SIZE + 64], tag[GI_QUOTE_SIZE];
     int length = name_length(&reader->window, place.offset);
     gi_window_copy(&reader->window, place.offset, length, closed, sizeof closed);
     describe_open(reader, open, sizeof open);
     const char *top = reader->tags.data + gi_reader_top(reader)->tag;
+    gi_quote(tag, top, strlen(top));
+    GiSuggestion suggestion = gi_suggestion_begin(closed, strlen(closed));
+    gi_suggestion_offer(&suggestion, top);
+    if (suggestion.best != NULL && !is_open(reader, closed)) {
+        gi_report_add(&reader->report, place, length,
+            "`</%s>` does not close %s: did you mean `</%s>`?", closed, open, tag);
+        return;
+    }
     gi_report_add(&reader->report, place, length,
-        "`</%s>` does not close %s: `</%s>` is missing before it", closed, open,
-        gi_quote(tag, top, strlen(top)));
+        "`</%s>` does not close %s: `</%s>` is missing before it", closed, open, tag);
 }
 
 static void report_end(GiReader *reader, GiPlace place, const char *inside) {

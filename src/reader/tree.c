@@ -336,6 +336,18 @@ static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attrib
         &reader->report, place, length, "unknown %s type \"%s\": there are %s", noun, quote, list);
 }
 
+/* Whether a surface that is still open has the name. */
+static bool stands_in(const GiReader *reader, const char *name) {
+    for (size_t i = 0; i + 1 < reader->frames.count; i++) {
+        const GiFrame *frame = &reader->frames.data[i];
+        if (frame->element != NULL && frame->element->kind == GI_KIND_SURFACE &&
+            strcmp(reader->tags.data + frame->name, name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* An attribute `ref`: the named thing takes the place of this element. */
 static void read_ref(GiReader *reader, GiFrame *frame, const Attributes *attributes) {
     const GiNamed *named = gi_names_get(&reader->names, attributes->ref);
@@ -367,6 +379,12 @@ static void read_ref(GiReader *reader, GiFrame *frame, const Attributes *attribu
     if (named != NULL) {
         gi_report_add(&reader->report, place, length, "\"%s\" names %s, but %s needs %s", quote,
             gi_kind_text((GiKind)named->kind), frame->element->name, gi_kind_text(kind));
+        return;
+    }
+    if (kind == GI_KIND_SURFACE && attributes->ref[0] != '\0' &&
+        stands_in(reader, attributes->ref)) {
+        gi_report_add(&reader->report, place, length,
+            "\"%s\" names the group that this stands in: a group cannot contain itself", quote);
         return;
     }
     const char *best = gi_names_suggest(&reader->names, attributes->ref);
