@@ -243,7 +243,9 @@ GlintStatus glint_scene_set_image(
     CHECK_OPEN(scene, desc, "glint_image_desc_default", error);
     const char *fault = gi_scene_check_image_size(desc->width, desc->height);
     if (fault != NULL) return ARGUMENT(error, "%s", fault);
-    if (desc->samples < 1) return ARGUMENT(error, "samples must be at least 1");
+    if (desc->samples < 1 || desc->samples > GI_SAMPLES_LIMIT) {
+        return ARGUMENT(error, "samples must be from 1 to %d", GI_SAMPLES_LIMIT);
+    }
     if (!is_finite3(desc->back_color)) return ARGUMENT(error, "back_color is not finite");
     if (!isfinite(desc->exposure)) return ARGUMENT(error, "exposure is not finite");
     GiScene *model = &scene->model;

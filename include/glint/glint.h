@@ -209,8 +209,9 @@ GLINT_API GlintStatus glint_scene_load_stream(GlintScene *scene, GlintReadFn rea
 /* ---- by calls */
 
 typedef struct GlintImageDesc {
-    int width, height;    /* pixels; each at least 1, at most 2^28 together; default 512 x 512 */
-    int samples;          /* per pixel, drawn on a regular n x n grid, n = round(sqrt); default 1 */
+    int width, height; /* pixels; each at least 1, at most 2^28 together; default 512 x 512 */
+    int samples; /* per pixel, drawn on a regular n x n grid, n = round(sqrt); 1 (default) to 65536
+                  */
     double back_color[3]; /* linear; default black */
     double exposure;      /* factor of every pixel; <= 0 is ignored; default 1 */
     int cookie;
@@ -347,7 +348,7 @@ GLINT_API GlintStatus glint_render(
 
 typedef struct GlintRay {
     double origin[3];
-    double direction[3]; /* any length but zero; t counts in this length */
+    double direction[3]; /* of length 1e-100 to 1e100; t counts in this length */
     double t_min, t_max; /* open interval; t_max may be INFINITY */
 } GlintRay;
 

@@ -22,8 +22,8 @@
  *     ISA-L 2.30   0      2.2 / 276                    7.3 / 1528
  *     with own code       2.4 / 233                    8.6 / 1308
  *
- * Its bytes were compared at thirty thousand addresses, and on AVX-512 (native), Haswell and Nehalem
- * (emulated): the same. Another version of a library may of course choose other bytes. */
+ * Its bytes were compared at thirty thousand addresses, and on AVX-512 (native), Haswell and
+ * Nehalem (emulated): the same. Another version of a library may of course choose other bytes. */
 #include "image/deflate.h"
 
 #include <string.h>
@@ -109,7 +109,9 @@ uint32_t gi_deflate_adler32(const uint8_t *bytes, size_t size) {
 #include <zlib.h>
 
 /* zlib makes a code for every block by itself. */
-struct GiDeflateCode { GiMemory *memory; };
+struct GiDeflateCode {
+    GiMemory *memory;
+};
 
 GiDeflateCode *gi_deflate_code_create(GiMemory *memory) {
     GiDeflateCode *code = gi_memory_allocate(memory, sizeof *code);

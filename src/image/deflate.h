@@ -15,8 +15,9 @@ void gi_deflate_destroy(GiDeflater *deflater); /* null is allowed */
 /* What a piece of size bytes needs at most. */
 size_t gi_deflate_bound(size_t size);
 
-/* A code made for the bytes at hand: learn from samples of what will be compressed, then finish, and
- * hand it to every piece. Read-only from then on, for any number of threads. Null: no memory. */
+/* A code made for the bytes at hand: learn from samples of what will be compressed, then finish,
+ * and hand it to every piece. Read-only from then on, for any number of threads. Null: no memory.
+ */
 typedef struct GiDeflateCode GiDeflateCode;
 GiDeflateCode *gi_deflate_code_create(GiMemory *memory);
 void gi_deflate_code_learn(GiDeflateCode *code, const uint8_t *bytes, size_t size);

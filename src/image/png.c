@@ -25,10 +25,10 @@ enum {
     CHUNK_TAIL = 4,         /* CRC after it */
     STREAM_HEAD = 2,        /* of the zlib stream, in the first strip */
     FILTER_PAETH = 4,
-    STRIPS_PER_WORKER = 4, /* in a batch */
-    SAMPLE_COUNT = 4,      /* strips looked at to make the code, */
-    SAMPLE_SIZE = 24 << 10,/* and bytes of each */
-    TEXT_LIMIT = 1 << 16,  /* bytes of a title */
+    STRIPS_PER_WORKER = 4,  /* in a batch */
+    SAMPLE_COUNT = 4,       /* strips looked at to make the code, */
+    SAMPLE_SIZE = 24 << 10, /* and bytes of each */
+    TEXT_LIMIT = 1 << 16,   /* bytes of a title */
 };
 
 /* One strip's chunk, complete with head and tail. */
@@ -213,8 +213,8 @@ static void encode_strips(void *context, size_t begin, size_t end, int worker) {
         slot->raw_size = filter_strip(encoder, scratch, index);
         slot->adler = gi_deflate_adler32(scratch->raw, slot->raw_size);
         memcpy(data, "\x78\x01", head); /* deflate, window of 32 KB, fastest */
-        size_t size =
-            gi_deflate_piece(scratch->deflater, encoder->code, scratch->raw, slot->raw_size, data + head);
+        size_t size = gi_deflate_piece(
+            scratch->deflater, encoder->code, scratch->raw, slot->raw_size, data + head);
         slot->chunk_size = size != 0 ? finish_chunk(slot->chunk, "IDAT", head + size) : 0;
     }
 }

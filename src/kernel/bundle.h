@@ -4,8 +4,8 @@
  * In the plane at depth 1 along the bundle's axis w every ray is a point (a, b), sixteen of them (a
  * packet) a rectangle, and all of them a larger rectangle: a frustum of four planes, against which
  * nodes are tested once for all rays. A shape is a rectangle too, with a nearest depth; five
- * comparisons for sixteen packets at once tell which packets it may concern, five more which rays of a
- * packet, and only those are tested exactly. (After Reshetov 2005, Overbeck 2008 and Davidovic
+ * comparisons for sixteen packets at once tell which packets it may concern, five more which rays
+ * of a packet, and only those are tested exactly. (After Reshetov 2005, Overbeck 2008 and Davidovic
  * 2012.)
  *
  *        b |   +---------------- tile
@@ -57,6 +57,8 @@ typedef struct Tile {
     Packets packets;
     Frustum frustum;
     double scale;
+    bool stopped;
+    int tests_made; /* since `stop` was asked */
     int test_count;
     Test tests[TEST_LIMIT];
 } Tile;
@@ -210,13 +212,13 @@ static inline F frame_dot(const float n[3], F x, F y, F z) {
 
 /* The smallest and the largest value of p . n over boxes relative to the apex. */
 static inline F smallest_dot(const float n[3], const F low[3], const F high[3]) {
-    return frame_dot(n, (n[0] >= 0 ? low : high)[0], (n[1] >= 0 ? low : high)[1],
-        (n[2] >= 0 ? low : high)[2]);
+    return frame_dot(
+        n, (n[0] >= 0 ? low : high)[0], (n[1] >= 0 ? low : high)[1], (n[2] >= 0 ? low : high)[2]);
 }
 
 static inline F largest_dot(const float n[3], const F low[3], const F high[3]) {
-    return frame_dot(n, (n[0] >= 0 ? high : low)[0], (n[1] >= 0 ? high : low)[1],
-        (n[2] >= 0 ? high : low)[2]);
+    return frame_dot(
+        n, (n[0] >= 0 ? high : low)[0], (n[1] >= 0 ? high : low)[1], (n[2] >= 0 ? high : low)[2]);
 }
 
 /* Bits of the children whose boxes reach into the frustum; their nearest depths in enter[8]. */
@@ -454,6 +456,16 @@ static inline bool tile_test(Tile *tile, GiShapeRef ref, int packet, unsigned ra
 
 /* ---------------------------------------------------------------- the walk */
 
+/* Counts tests, and asks now and then whether to go on. */
+static inline void tile_count(Tile *tile, int tests) {
+    enum { TESTS_BETWEEN = 4096 };
+    const GiBundle *bundle = tile->bundle;
+    tile->tests_made += tests;
+    if (tile->tests_made < TESTS_BETWEEN || bundle->stop == NULL) return;
+    tile->tests_made = 0;
+    tile->stopped = bundle->stop(bundle->stop_context);
+}
+
 /* Makes the exact tests that have come together. */
 static inline void tile_flush(Tile *tile) {
     bool changed = false;
@@ -462,6 +474,7 @@ static inline void tile_flush(Tile *tile) {
         unsigned rays = test->rays & tile->alive[test->packet];
         if (rays != 0) changed |= tile_test(tile, test->shape, (int)test->packet, rays);
     }
+    tile_count(tile, tile->test_count);
     tile->test_count = 0;
     if (changed && tile->any) tile_shrink(tile);
     if (changed && !tile->any) tile_refresh_far(tile);
@@ -509,7 +522,8 @@ static inline void tile_block(Tile *tile, uint32_t child) {
 static inline void tile_walk(Tile *tile) {
     const GiTree *tree = tile->trace->tree;
     int packet_count = (tile->bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
-    for (uint32_t i = 0; i < tree->unbounded_count; i++) {
+    for (uint32_t i = 0; i < tree->unbounded_count && !tile->stopped; i++) {
+        tile_count(tile, packet_count);
         for (int k = 0; k < packet_count; k++) {
             tile_test(tile, tree->unbounded[i], k, tile->alive[k]);
         }
@@ -518,7 +532,7 @@ static inline void tile_walk(Tile *tile) {
     StackEntry stack[STACK_LIMIT];
     int count = 0;
     if (tree->root != GI_CHILD_NONE) stack[count++] = (StackEntry){tree->root, -INFINITY};
-    while (count > 0) {
+    while (count > 0 && !tile->stopped) {
         StackEntry top = stack[--count];
         if (!(top.enter <= tile->frustum.far)) continue;
         if (top.child & GI_CHILD_BLOCK) {
@@ -553,7 +567,8 @@ static inline void bundle_trace(const GiTrace *trace, GiBundle *bundle, bool any
     tile.bundle = bundle;
     tile.any = any;
     tile.scale = trace->tree->scale;
-    tile.test_count = 0;
+    tile.test_count = tile.tests_made = 0;
+    tile.stopped = false;
     for (int i = 0; i < GI_BUNDLE_SIZE / 32; i++) tile.inverse_known[i] = 0;
     for (int i = 0; i < GI_BUNDLE_SIZE; i++) bundle->shape[i] = GI_SHAPE_NONE;
     GiVec u, v, w;
@@ -569,6 +584,7 @@ static inline void bundle_trace(const GiTrace *trace, GiBundle *bundle, bool any
         }
     }
     for (int i = 0; i < bundle->count; i++) {
+        if (i % 16 == 0 && bundle->stop != NULL && bundle->stop(bundle->stop_context)) return;
         GiTraceRay ray = bundle_ray(bundle, i);
         GiTraceHit hit;
         if (any ? line_trace(trace, &ray, true, &hit) : line_trace(trace, &ray, false, &hit)) {

@@ -48,6 +48,10 @@ typedef struct GiBundle {
     int count; /* 1 to GI_BUNDLE_SIZE */
     GiVec apex;
     GiVec side; /* a direction the packets are aligned with; zero: none known */
+    /* Asked every few thousand exact tests, when it is not null; true: the bundle may stay
+     * unfinished. */
+    bool (*stop)(const void *context);
+    const void *stop_context;
     /* Filled in by the kernel: 1 / d where needed, 1 / d.d, depth of the direction along the axis.
      */
     double ix[GI_BUNDLE_SIZE], iy[GI_BUNDLE_SIZE], iz[GI_BUNDLE_SIZE];

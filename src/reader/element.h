@@ -47,8 +47,6 @@ typedef enum GiKind {
     GI_KIND_LIGHT
 } GiKind;
 
-enum { GI_SAMPLES_LIMIT = 65536 };
-
 typedef enum GiCheck {
     GI_CHECK_NONE,
     GI_CHECK_POSITIVE,

@@ -41,7 +41,8 @@ static void project(GiRegroup *regroup, int count) {
         float x = regroup->x[i], y = regroup->y[i], z = regroup->z[i];
         float depth = axes.w[0] * x + axes.w[1] * y + axes.w[2] * z;
         float least = 1e-3f * (fabsf(x) + fabsf(y) + fabsf(z)); /* rays across or backward */
-        float inverse = 1 / (depth > least ? depth : least);
+        float divisor = depth > least ? depth : least;
+        float inverse = divisor > 0 ? 1 / divisor : 0;
         regroup->a[i] = (axes.u[0] * x + axes.u[1] * y + axes.u[2] * z) * inverse;
         regroup->b[i] = (axes.v[0] * x + axes.v[1] * y + axes.v[2] * z) * inverse;
     }
@@ -99,6 +100,14 @@ void gi_regroup_init(GiRegroup *regroup) {
     }
 }
 
+/* The bucket of a value; the ends also take what lies outside or is not a number, so that nothing a
+ * scene may hold leads out of the array. */
+static inline int bucket_of(float value, float low, float scale) {
+    float place = (value - low) * scale;
+    if (!(place > 0)) return 0;
+    return place < BUCKETS - 1 ? (int)place : BUCKETS - 1;
+}
+
 /* Adds the rank of every value, times a factor, to its key. */
 static void rank(GiRegroup *regroup, const float *value, int count, int factor) {
     float low = INFINITY, high = -INFINITY;
@@ -109,7 +118,7 @@ static void rank(GiRegroup *regroup, const float *value, int count, int factor) 
     float scale = (BUCKETS - 0.01f) / (high - low);
     if (!(scale > 0 && scale < 1e30f)) return; /* all alike, or not numbers */
     int counts[BUCKETS] = {0};
-    for (int i = 0; i < count; i++) counts[(int)((value[i] - low) * scale)]++;
+    for (int i = 0; i < count; i++) counts[bucket_of(value[i], low, scale)]++;
     uint16_t ranks[BUCKETS];
     float rank_scale = (RANKS - 0.01f) / (float)count;
     for (int i = 0, below = 0; i < BUCKETS; i++) {
@@ -118,7 +127,7 @@ static void rank(GiRegroup *regroup, const float *value, int count, int factor) 
         below += counts[i];
     }
     for (int i = 0; i < count; i++) {
-        regroup->key[i] = (uint16_t)(regroup->key[i] + ranks[(int)((value[i] - low) * scale)]);
+        regroup->key[i] = (uint16_t)(regroup->key[i] + ranks[bucket_of(value[i], low, scale)]);
     }
 }
 

@@ -5,8 +5,8 @@
 #include "shade/shade.h"
 
 enum {
-    BLOCK_SIDE = 32,     /* a bundle of camera rays: 32 x 32 pixels */
-    PACKET_SIDE = 4,     /* a packet: 4 x 4 */
+    BLOCK_SIDE = 32, /* a bundle of camera rays: 32 x 32 pixels */
+    PACKET_SIDE = 4, /* a packet: 4 x 4 */
     PACKETS_ACROSS = BLOCK_SIDE / PACKET_SIDE,
     STRIDE = GI_TILE_SIDE_LIMIT,
     PIXEL_COUNT = STRIDE * STRIDE
@@ -34,8 +34,8 @@ struct GiTileScratch {
     Hit hits[PIXEL_COUNT];
     Pending pending[PIXEL_COUNT];
     double across[STRIDE], up[STRIDE]; /* window coordinates of columns and rows */
-    GiVec color[PIXEL_COUNT];                      /* of the sample being drawn */
-    GiVec sum[PIXEL_COUNT];                        /* of the samples before */
+    GiVec color[PIXEL_COUNT];          /* of the sample being drawn */
+    GiVec sum[PIXEL_COUNT];            /* of the samples before */
     int hit_count;
 };
 
@@ -64,6 +64,9 @@ static bool stopped(const GiTileControl *control) {
     return atomic_load_explicit(control->stop, memory_order_relaxed);
 }
 
+/* The same for the kernels. */
+static bool ask(const void *control) { return stopped(control); }
+
 static void keep_hit(const GiWorld *world, GiTileScratch *scratch, int i, uint32_t pixel) {
     const GiBundle *bundle = &scratch->bundle;
     GiShapeRef ref = {bundle->shape[i]};
@@ -80,8 +83,10 @@ static void keep_hit(const GiWorld *world, GiTileScratch *scratch, int i, uint32
 }
 
 /* The rays of a parallel camera have no point in common. */
-static void trace_apart(const GiWorld *world, GiBundle *bundle) {
+static void trace_apart(const GiWorld *world, GiBundle *bundle, const GiTileControl *control) {
     for (int i = 0; i < bundle->count; i++) {
+        bundle->shape[i] = GI_SHAPE_NONE;
+        if (i % 16 == 0 && stopped(control)) continue;
         GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
             {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
             bundle->skip[i]};
@@ -93,8 +98,8 @@ static void trace_apart(const GiWorld *world, GiBundle *bundle) {
 }
 
 /* One bundle: the pixels of a block, packet by packet. */
-static void trace_block(
-    const GiWorld *world, const Extent *extent, int block_x, int block_y, GiTileScratch *scratch) {
+static void trace_block(const GiWorld *world, const Extent *extent, int block_x, int block_y,
+    GiTileScratch *scratch, const GiTileControl *control) {
     GiBundle *bundle = &scratch->bundle;
     uint32_t pixels[GI_BUNDLE_SIZE];
     int count = 0;
@@ -110,7 +115,7 @@ static void trace_block(
             bundle->oz[count] = origin.z;
             bundle->dx[count] = direction.x, bundle->dy[count] = direction.y;
             bundle->dz[count] = direction.z;
-            bundle->t_min[count] = 0;
+            bundle->t_min[count] = world->eye_error;
             bundle->t_max[count] = INFINITY;
             bundle->skip[count] = GI_SHAPE_NONE;
             pixels[count++] = (uint32_t)(y * STRIDE + x);
@@ -120,8 +125,10 @@ static void trace_block(
     bundle->count = count;
     bundle->apex = world->view.eye;
     bundle->side = world->view.across;
+    bundle->stop = ask;
+    bundle->stop_context = control;
     if (world->view.parallel) {
-        trace_apart(world, bundle);
+        trace_apart(world, bundle, control);
     } else {
         world->kernel->bundle_closest(&world->trace, bundle);
     }
@@ -146,6 +153,8 @@ static void trace_pending(const GiWorld *world, const GiLight *light, int count,
         bundle->count = count - begin < GI_BUNDLE_SIZE ? count - begin : GI_BUNDLE_SIZE;
         bundle->apex = light->position;
         bundle->side = gi_vec(0, 0, 0);
+        bundle->stop = ask;
+        bundle->stop_context = control;
         for (int i = 0; i < bundle->count; i++) {
             const Pending *pending = &scratch->pending[order[i]];
             bundle->ox[i] = pending->point.x;
@@ -197,9 +206,10 @@ static void add_light(const GiWorld *world, const GiLight *light, GiTileScratch 
         double away = rules->shadow_distance > 0 ? rules->shadow_distance : hit->error;
         scratch->pending[count] =
             (Pending){hit->point, adds, away * inverse, hit->pixel, hit->skip};
-        regroup->x[count] = (float)d.x;
-        regroup->y[count] = (float)d.y;
-        regroup->z[count] = (float)d.z;
+        /* Of unit length, since scenes may be larger or smaller than a float can be. */
+        regroup->x[count] = (float)(d.x * inverse);
+        regroup->y[count] = (float)(d.y * inverse);
+        regroup->z[count] = (float)(d.z * inverse);
         count++;
     }
     if (count > 0) trace_pending(world, light, count, scratch, control);
@@ -221,9 +231,9 @@ static void draw_sample(const GiWorld *world, const GiRenderArea *area, const Ex
         scratch->up[y] = (area->height - 1 - (extent->y + y) + offset_y) / area->height;
     }
     for (int y = 0; y < extent->height; y += BLOCK_SIDE) {
-        if (stopped(control)) return;
         for (int x = 0; x < extent->width; x += BLOCK_SIDE) {
-            trace_block(world, extent, x, y, scratch);
+            if (stopped(control)) return;
+            trace_block(world, extent, x, y, scratch, control);
         }
     }
     counts->camera_rays += (uint64_t)extent->width * (uint64_t)extent->height;
@@ -238,8 +248,8 @@ static void draw_sample(const GiWorld *world, const GiRenderArea *area, const Ex
     }
 }
 
-void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side, float *pixels,
-    GiTileScratch *scratch, GiRenderCounts *counts, const GiTileControl *control) {
+void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
+    float *pixels, GiTileScratch *scratch, GiRenderCounts *counts, const GiTileControl *control) {
     Extent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
     if (extent.width > side) extent.width = side;
     if (extent.height > side) extent.height = side;

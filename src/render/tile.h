@@ -19,7 +19,7 @@ typedef struct GiTileControl {
     const GlintMonitor *monitor; /* null on the other workers */
 } GiTileControl;
 
-/* Draws the part of the tile with corner (x, y) and the given side that lies in the area. control is asked every few
- * hundred rays; when it says stop the tile stays unfinished. */
-void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side, float *pixels,
-    GiTileScratch *scratch, GiRenderCounts *counts, const GiTileControl *control);
+/* Draws the part of the tile with corner (x, y) and the given side that lies in the area. control
+ * is asked every few hundred rays; when it says stop the tile stays unfinished. */
+void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
+    float *pixels, GiTileScratch *scratch, GiRenderCounts *counts, const GiTileControl *control);

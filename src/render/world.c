@@ -18,6 +18,8 @@ typedef struct OpenGroup {
 
 typedef GI_ARRAY(OpenGroup) OpenGroups;
 
+enum { STEP_LIMIT = 1 << 26 }; /* children looked at while groups are spread out */
+
 static GlintStatus place_shape(
     GiWorld *world, GiMemory *memory, OpenGroup *group, GiShapeRef ref, GlintError *error) {
     if (world->refs.count >= GI_SHAPE_INDEX_LIMIT) {
@@ -76,10 +78,18 @@ static GlintStatus spread_groups(
         } else {
             ref = group->children.data[top->next++];
         }
+        /* Groups may refer to groups that refer to groups ...: a short file can ask for more than
+         * any machine can do, even without a single shape. */
+        if (++steps > STEP_LIMIT) {
+            status = gi_error_set(error, GLINT_ERROR_SCENE,
+                "groups refer to groups so often that more than %d places would be looked at",
+                STEP_LIMIT);
+            break;
+        }
         status = gi_shape_kind(ref) == GI_SHAPE_GROUP
                      ? open_group(world, scene, &open, gi_shape_index(ref), error)
                      : place_shape(world, memory, top, ref, error);
-        if ((++steps & 0xffff) == 0 && monitor != NULL && monitor->cancelled != NULL &&
+        if ((steps & 0xffff) == 0 && monitor != NULL && monitor->cancelled != NULL &&
             monitor->cancelled(monitor->user)) {
             status = gi_error_set(error, GLINT_CANCELLED, "cancelled");
         }
@@ -149,6 +159,9 @@ GlintStatus gi_world_commit(GiWorld *world, GiScene *scene, const GiKernel *kern
     point_shapes(world, scene);
     world->trace = (GiTrace){&world->store.tree, &world->shapes};
     world->view = gi_view_of(&scene->camera);
+    /* The surface is not known yet, so the scene's size stands for its own. */
+    world->eye_error =
+        (gi_largest(world->view.eye) + 1 / world->store.tree.scale) * GI_SURFACE_ERROR;
     return GLINT_OK;
 }
 

@@ -15,6 +15,7 @@ typedef struct GiWorld {
     GiTreeStore store;
     GiTrace trace;
     GiView view;
+    double eye_error; /* camera rays begin here, past a surface that the eye lies on */
     size_t primitive_count;
     GI_ARRAY(GiShapeRef) refs; /* groups spread out; empty again once the tree stands */
     GI_ARRAY(GiPlacement) placements;

@@ -82,6 +82,7 @@ GiShader gi_shader_default(void);
 GiLight gi_light_default(void);
 
 #define GI_IMAGE_PIXEL_LIMIT (1 << 28)
+#define GI_SAMPLES_LIMIT     65536
 
 /* ---- checks: null, or what is wrong */
 const char *gi_scene_check_image_size(double width, double height);
