@@ -288,6 +288,34 @@ static void shadows_of_itself(void) {
     }
 }
 
+/* Distances beyond the range of float, in numbers of rays that are sorted before they are traced: a
+ * light so near to a plane, and a plane so far from spheres, that the differences of coordinates
+ * are nothing or infinite in single precision. */
+static void lights_beyond_float(void) {
+    static char xml[200000];
+    Picture near =
+        picture_of_text("<scene dialect='glint'><image>101 101</image>"
+                        "<camera type='PerspectiveCamera'><viewPoint>0 0 5</viewPoint></camera>"
+                        "<surface type='Plane'><normal>0 0 1</normal></surface>"
+                        "<light><position>0 0 1e-50</position></light></scene>");
+    CHECK(near.pixels != NULL);
+    size_t length = (size_t)snprintf(xml, sizeof xml,
+        "<scene dialect='glint'><image>320 240</image><camera type='PerspectiveCamera'>"
+        "<viewPoint>0 0 30</viewPoint></camera>"
+        "<surface type='Plane'><point>0 0 -1e39</point><normal>0 0 1</normal></surface>"
+        "<light><position>3 4 50</position></light>");
+    for (int i = 0; i < 1000; i++) {
+        length += (size_t)snprintf(xml + length, sizeof xml - length,
+            "<surface type='Sphere'><center>%d %d 0</center><radius>0.4</radius></surface>",
+            i % 32 - 16, i / 32 - 16);
+    }
+    snprintf(xml + length, sizeof xml - length, "</scene>");
+    Picture far = picture_of_text(xml);
+    CHECK(far.pixels != NULL);
+    picture_free(&near);
+    picture_free(&far);
+}
+
 const GiTest tests_radiance[] = {TEST(lambertian), TEST(phong), TEST(falloff_by_light),
     TEST(background_and_exposure), TEST(lights_without_a_place), TEST(shadow_edges),
-    TEST(shadows_of_itself), TEST_END};
+    TEST(shadows_of_itself), TEST(lights_beyond_float), TEST_END};
