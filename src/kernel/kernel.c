@@ -14,6 +14,7 @@
 #undef GI_HIT
 
 #include "kernel/single.h"
+#include "kernel/frustum.h"
 #include "kernel/bundle.h"
 
 extern const GiKernel GI_KERNEL(kernel);
