@@ -53,11 +53,11 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
 }
 
 /* Large tiles trace faster, many tiles share out better: the largest side that leaves every worker
- * four of them. */
+ * sixteen of them. */
 static int tile_side(const GiRenderArea *area, size_t workers) {
     double pixels = (double)area->crop_width * area->crop_height;
     int side = GI_TILE_SIDE_LIMIT;
-    while (side > 32 && pixels < 4.0 * (double)workers * side * side) side /= 2;
+    while (side > 32 && pixels < 16.0 * (double)workers * side * side) side /= 2;
     return side;
 }
 
