@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Puts rays that run to one point into an order in which neighbours are close together, so that
- * the kernels' bundles of 256 and packets of 16 are narrow. */
+ * the kernels' bundles of 1024 and packets of 16 are narrow. */
 #pragma once
 
 #include "math/vec.h"

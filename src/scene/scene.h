@@ -112,8 +112,9 @@ bool gi_scene_add_step(GiScene *scene, uint32_t group, GiTransformStepKind kind,
 bool gi_scene_add_matrix(GiScene *scene, uint32_t group, const GiAffine *matrix);
 
 /* Places a shape or group in a group (its index), or directly in the scene (GI_SHAPE_NONE). The
- * same ref may be placed any number of times; a group must be whole before it is placed, so that
- * no group can contain itself. */
+ * same ref may be placed any number of times. The caller sees to it that no group contains itself:
+ * the reader places a group when it has been closed, the public calls only give new surfaces a
+ * parent. */
 bool gi_scene_place(GiScene *scene, uint32_t group, GiShapeRef ref);
 
 /* The matrix of a group's steps under the rules. False when it is singular or not finite. */
