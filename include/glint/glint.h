@@ -236,8 +236,13 @@ typedef struct GlintCameraDesc {
 
 typedef enum GlintShaderType {
     GLINT_SHADER_LAMBERTIAN,
-    GLINT_SHADER_PHONG,      /* Blinn-Phong: the exponent acts on normal . half vector */
-    GLINT_SHADER_RGB_NORMALS /* (normal + 1) / 2 */
+    GLINT_SHADER_PHONG,       /* Blinn-Phong: the exponent acts on normal . half vector */
+    GLINT_SHADER_RGB_NORMALS, /* (normal + 1) / 2 */
+    GLINT_SHADER_GLAZED,      /* a clear coat over a substrate: mirrors by Fresnel's formula */
+    GLINT_SHADER_GLASS,       /* mirrors and refracts */
+    GLINT_SHADER_BECKMANN,    /* microfacets (Walter et al. 2007) over a diffuse base */
+    GLINT_SHADER_GGX,
+    GLINT_SHADER_COOK_TORRANCE
 } GlintShaderType;
 
 typedef struct GlintShaderDesc {
@@ -249,11 +254,21 @@ typedef struct GlintShaderDesc {
 } GlintShaderDesc;
 
 typedef enum GlintLightType {
-    GLINT_LIGHT_POINT,    /* with hard shadows */
-    GLINT_LIGHT_AMBIENT,  /* adds intensity * diffuse colour everywhere */
-    GLINT_LIGHT_CONSTANT, /* adds the diffuse colour everywhere */
-    GLINT_LIGHT_NORMAL    /* adds (normal + 1) / 2 everywhere */
+    GLINT_LIGHT_POINT,       /* with hard shadows */
+    GLINT_LIGHT_AMBIENT,     /* adds intensity * diffuse colour everywhere */
+    GLINT_LIGHT_CONSTANT,    /* adds the diffuse colour everywhere */
+    GLINT_LIGHT_NORMAL,      /* adds (normal + 1) / 2 everywhere */
+    GLINT_LIGHT_DIRECTIONAL, /* from infinitely far away, with hard shadows */
+    GLINT_LIGHT_RECTANGLE    /* shines from one side of a rectangle, with soft shadows */
 } GlintLightType;
+
+/* How light is gathered; docs/scene-format.md, integrators. */
+typedef enum GlintIntegrator {
+    GLINT_INTEGRATOR_LIGHT_SAMPLING,
+    GLINT_INTEGRATOR_BSDF_SAMPLING,
+    GLINT_INTEGRATOR_POINT_LIGHT,
+    GLINT_INTEGRATOR_PATH /* global illumination */
+} GlintIntegrator;
 
 typedef enum GlintFalloff {
     GLINT_FALLOFF_DIALECT, /* as the dialect has it; GLINT: none */
@@ -276,7 +291,8 @@ typedef enum GlintSurfaceType {
     GLINT_SURFACE_CONE,     /* center, radius (in the centre plane), height, tip_z; closed */
     GLINT_SURFACE_PLANE,    /* point_a, normal; infinite */
     GLINT_SURFACE_DISC,     /* center, normal, radius */
-    GLINT_SURFACE_GROUP     /* children under transform */
+    GLINT_SURFACE_GROUP,    /* children under transform */
+    GLINT_SURFACE_MESH      /* triangles */
 } GlintSurfaceType;
 
 typedef struct GlintSurfaceDesc {

@@ -304,6 +304,7 @@ static bool add_shape(GiReader *reader, GiFrame *frame, GiShapeRef *ref) {
         *ref = gi_shape_ref(GI_SHAPE_GROUP, frame->index);
         return check_group(reader, frame);
     }
+    case GLINT_SURFACE_MESH: return false;
     }
     if (!added) gi_reader_out_of_memory(reader);
     return added;

@@ -10,18 +10,30 @@ static const GiRules rules[GLINT_DIALECT_COUNT] = {
     [GLINT_DIALECT_2011] =
         {
             .name = "2011",
+            .schlick = true,
+            .glass_by_flag = true,
+            .glass_ends = true,
+            .least_weight = 0.01,
+            .last_level = 12,
             .entering_only = true,
             .default_diffuse = 1,
         },
     [GLINT_DIALECT_2012] =
         {
             .name = "2012",
+            .schlick = true,
+            .glass_by_flag = true,
+            .glass_ends = true,
+            .least_weight = 0.01,
+            .last_level = 12,
             .entering_only = true,
             .default_diffuse = 1,
         },
     [GLINT_DIALECT_MATERIAL] =
         {
             .name = "material",
+            .glazed_behind = true,
+            .last_level = 12,
             .falloff = true,
             .phong_cosine = true,
             .sphere_shadows_itself = true,
@@ -30,11 +42,15 @@ static const GiRules rules[GLINT_DIALECT_COUNT] = {
     [GLINT_DIALECT_2013] =
         {
             .name = "2013",
+            .glazed_behind = true,
+            .last_level = 12,
             .default_diffuse = 1,
         },
     [GLINT_DIALECT_2017] =
         {
             .name = "2017",
+            .glazed_behind = true,
+            .last_level = 12,
             .falloff = true,
             .highlight_needs_light = true,
             .sphere_shadows_itself = true,
@@ -44,6 +60,8 @@ static const GiRules rules[GLINT_DIALECT_COUNT] = {
     [GLINT_DIALECT_2017B] =
         {
             .name = "2017b",
+            .glazed_behind = true,
+            .last_level = 12,
             .falloff = true,
             .highlight_needs_light = true,
             .sphere_shadows_itself = true,
@@ -54,6 +72,8 @@ static const GiRules rules[GLINT_DIALECT_COUNT] = {
     [GLINT_DIALECT_2018] =
         {
             .name = "2018",
+            .glazed_behind = true,
+            .last_level = 12,
             .falloff = true,
             .diffuse_over_pi = true,
             .highlight_needs_light = true,
@@ -65,6 +85,11 @@ static const GiRules rules[GLINT_DIALECT_COUNT] = {
     [GLINT_DIALECT_2018B] =
         {
             .name = "2018b",
+            .glazed_behind = true,
+            .last_level = 12,
+            .glazed_adds = true,
+            .area_light_visible = true,
+            .environment_lights = true,
             .falloff = true,
             .diffuse_over_pi = true,
             .highlight_needs_light = true,
@@ -77,6 +102,8 @@ static const GiRules rules[GLINT_DIALECT_COUNT] = {
     [GLINT_DIALECT_2019] =
         {
             .name = "2019",
+            .glazed_behind = true,
+            .last_level = 12,
             .falloff = true,
             .diffuse_over_pi = true,
             .phong_cosine = true,
@@ -89,6 +116,10 @@ static const GiRules rules[GLINT_DIALECT_COUNT] = {
     [GLINT_DIALECT_GLINT] =
         {
             .name = "glint",
+            .glazed_behind = true,
+            .last_level = 12,
+            .area_light_visible = true,
+            .environment_lights = true,
             .highlight_needs_light = true,
             .sphere_shadows_itself = true,
             .cone_geometric = true,

@@ -18,6 +18,15 @@ typedef struct GiRules {
     bool first_listed_first; /* order in which the transforms of a group act */
     double shadow_distance;  /* a shadow ray begins at this distance; 0: at the error bound */
     double default_diffuse;  /* of a Lambertian shader */
+    bool schlick;            /* Glazed and Glass reflect by Schlick's formula, not Fresnel's */
+    bool glass_by_flag;      /* a ray knows whether it is in glass by counting, not by n.v */
+    bool glass_ends;         /* Glass and Glazed are black to a ray of the last level */
+    bool glazed_behind;      /* Glazed lets its substrate shine where n.v < 0 */
+    bool glazed_adds;        /* Glazed does not weaken its substrate */
+    double least_weight;     /* branches of the ray tree below it are dropped */
+    int last_level;          /* deepest level shaded; camera rays are level 1 */
+    bool area_light_visible; /* rectangle lights are surfaces too */
+    bool environment_lights; /* the environment lights surfaces */
 } GiRules;
 
 /* The row of a dialect other than AUTO. */

@@ -10,6 +10,7 @@ bool gi_scene_init(GiScene *scene, GiMemory *memory) {
     scene->memory = memory;
     scene->samples = 1;
     scene->exposure = 1;
+    scene->max_depth = 12;
     scene->camera = gi_camera_default();
     return gi_array_push(memory, &scene->shaders, gi_shader_default());
 }
@@ -30,6 +31,16 @@ void gi_scene_reset(GiScene *scene) {
     gi_array_free(memory, &scene->cones);
     gi_array_free(memory, &scene->discs);
     gi_array_free(memory, &scene->planes);
+    gi_mesh_store_free(&scene->meshes, memory);
+    gi_array_free(memory, &scene->mesh_surfaces);
+    for (size_t i = 0; i < scene->pictures.count; i++) {
+        const GiPicture *picture = &scene->pictures.data[i];
+        gi_memory_free(memory, picture->rgb, (size_t)picture->width * (size_t)picture->height * 3);
+    }
+    gi_array_free(memory, &scene->pictures);
+    gi_array_free(memory, &scene->textures);
+    size_t face = (size_t)scene->environment.face;
+    gi_memory_free(memory, scene->environment.pixels, face * face * 12 * 3 * sizeof(float));
     gi_array_free(memory, &scene->groups);
     gi_array_free(memory, &scene->matrices);
     gi_array_free(memory, &scene->roots);
@@ -50,11 +61,20 @@ GiShader gi_shader_default(void) {
     return (GiShader){.type = GLINT_SHADER_LAMBERTIAN,
         .diffuse = {1, 1, 1},
         .specular = {1, 1, 1},
-        .exponent = 1};
+        .exponent = 1,
+        .roughness = 1,
+        .index = 1,
+        .texture = GI_NONE,
+        .substrate = GI_NONE};
 }
 
 GiLight gi_light_default(void) {
-    return (GiLight){.type = GLINT_LIGHT_POINT, .intensity = {1, 1, 1}};
+    return (GiLight){.type = GLINT_LIGHT_POINT,
+        .intensity = {1, 1, 1},
+        .direction = {0, 0, -1},
+        .up = {0, 1, 0},
+        .width = 1,
+        .height = 1};
 }
 
 /* ---------------------------------------------------------------- checks */

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "base/array.h"
+#include "mesh/mesh.h"
 #include "scene/dialect.h"
 #include "shape/shape.h"
 
@@ -18,18 +19,56 @@ typedef struct GiCamera {
     double projection_distance, view_width, view_height;
 } GiCamera;
 
+/* Indices into the scene's arrays that may point nowhere. */
+#define GI_NONE UINT32_MAX
+
 typedef struct GiShader {
     GlintShaderType type;
-    bool diffuse_given; /* otherwise the dialect's default is put in at commit */
-    GiVec diffuse, specular;
+    bool diffuse_given;      /* otherwise the dialect's default is put in at commit */
+    GiVec diffuse, specular; /* specular: of microfacet shaders the microfacetColor */
+    GiVec mirror;            /* mirrorCoefficient */
     double exponent;
+    double roughness;   /* alpha */
+    double index;       /* of refraction */
+    uint32_t texture;   /* in the place of diffuse, or GI_NONE */
+    uint32_t substrate; /* a shader that exists already, or GI_NONE; Glazed has one */
 } GiShader;
 
 typedef struct GiLight {
     GlintLightType type;
     GlintFalloff falloff;
     GiVec position, intensity;
+    GiVec direction;      /* directional: toward the light; rectangle: its front */
+    GiVec up;             /* rectangle */
+    double width, height; /* rectangle */
 } GiLight;
+
+/* A mesh as a surface. */
+typedef struct GiMeshSurface {
+    uint32_t mesh;
+    GiShapeInfo info;
+} GiMeshSurface;
+
+typedef enum GiWrap { GI_WRAP_REPEAT, GI_WRAP_CLAMP } GiWrap;
+
+/* An image may be shared by textures that wrap it differently. */
+typedef struct GiTexture {
+    uint32_t picture;
+    GiWrap wrap;
+} GiTexture;
+
+/* 8-bit RGB, top row first, as the file has it. */
+typedef struct GiPicture {
+    int width, height;
+    uint8_t *rgb; /* width * height * 3 */
+} GiPicture;
+
+/* Radiance from all around (docs/scene-format.md, cubemap). */
+typedef struct GiEnvironment {
+    int face;      /* side of a face in pixels; 0: there is none */
+    float *pixels; /* a cross of 3 x 4 faces, RGB, row 0 as stored first */
+    double scale;
+} GiEnvironment;
 
 typedef enum GiTransformStepKind {
     GI_STEP_TRANSLATE,
@@ -66,6 +105,13 @@ typedef struct GiScene {
     GI_ARRAY(GiCone) cones;
     GI_ARRAY(GiDisc) discs;
     GI_ARRAY(GiPlane) planes;
+    GiMeshStore meshes;
+    GI_ARRAY(GiMeshSurface) mesh_surfaces;
+    GI_ARRAY(GiPicture) pictures;
+    GI_ARRAY(GiTexture) textures;
+    GiEnvironment environment;
+    GlintIntegrator integrator;
+    int max_depth;                          /* of the path integrator: surfaces a path may meet */
     GiShapeInfos info[GI_SHAPE_KIND_COUNT]; /* parallel to the arrays above */
     uint32_t shape_count;                   /* of all kinds; the next order */
     GI_ARRAY(GiGroup) groups;
@@ -83,6 +129,8 @@ GiLight gi_light_default(void);
 
 #define GI_IMAGE_PIXEL_LIMIT (1 << 28)
 #define GI_SAMPLES_LIMIT     65536
+#define GI_SUBSTRATE_LIMIT   8 /* Glazed on Glazed on ... */
+#define GI_PATH_LIMIT        4096
 
 /* ---- checks: null, or what is wrong */
 const char *gi_scene_check_image_size(double width, double height);

@@ -13,7 +13,7 @@ GiVec gi_shade_ambient(const GiShader *shader, const GiLight *light, GiVec norma
     case GLINT_LIGHT_AMBIENT: return gi_multiply(light->intensity, shader->diffuse);
     case GLINT_LIGHT_CONSTANT: return shader->diffuse;
     case GLINT_LIGHT_NORMAL: return normal_color(normal);
-    case GLINT_LIGHT_POINT: break;
+    default: break;
     }
     return gi_vec(0, 0, 0);
 }

@@ -44,7 +44,7 @@ static inline GiVec gi_shade_reflect(
     switch (shader->type) {
     case GLINT_SHADER_LAMBERTIAN: return gi_shade_lambertian(shader, rules, gi_dot(n, l));
     case GLINT_SHADER_PHONG: return gi_shade_phong(shader, rules, n, v, l);
-    case GLINT_SHADER_RGB_NORMALS: break;
+    default: break;
     }
     return gi_vec(0, 0, 0);
 }

@@ -13,9 +13,13 @@ typedef enum GiShapeKind {
     GI_SHAPE_CONE, /* cylinders too: a cylinder is a cone whose radius does not change */
     GI_SHAPE_DISC,
     GI_SHAPE_PLANE,
+    GI_SHAPE_RECTANGLE,
     GI_SHAPE_KIND_COUNT,
-    GI_SHAPE_PLACED = GI_SHAPE_KIND_COUNT, /* index into the placements: a ref under a transform */
-    GI_SHAPE_GROUP                         /* only before commit: index into the groups */
+    GI_SHAPE_TRIANGLE = GI_SHAPE_KIND_COUNT, /* index into the triangles of all meshes */
+    GI_SHAPE_PLACED,   /* index into the placements: a ref under a transform */
+    GI_SHAPE_INSTANCE, /* index into the instances: a tree of its own under a transform */
+    GI_SHAPE_MESH,     /* only before commit: index into the mesh surfaces */
+    GI_SHAPE_GROUP     /* only before commit: index into the groups */
 } GiShapeKind;
 
 typedef struct GiShapeRef {
@@ -57,6 +61,35 @@ typedef struct GiPlane {
     GiVec point, normal; /* unit */
 } GiPlane;
 
+/* The points center + s across + t up, s and t from -1 to 1. The three vectors are at right angles.
+ */
+typedef struct GiRectangle {
+    GiVec center, across, up, normal; /* normal: unit */
+} GiRectangle;
+
+/* The triangles of all meshes of a scene, file after file. Corners are single precision, as the
+ * files have them; a triangle's normals and texture coordinates are found by corner indices of
+ * their own only where a file has such (otherwise the positions' indices serve). */
+typedef struct GiTriangles {
+    const float (*positions)[3];
+    const float (*normals)[3];
+    const float (*texcoords)[2];
+    const uint32_t (*corners)[3]; /* indices of positions, a row a triangle */
+} GiTriangles;
+
+/* One file. Indices count from the first of the scene-wide arrays. */
+typedef struct GiMesh {
+    uint32_t first_triangle, triangle_count;
+    uint32_t first_position, position_count;
+    bool smooth;   /* has normals */
+    bool textured; /* has texture coordinates */
+    /* Corner indices of normals and texture coordinates, a row a triangle; a row that begins with
+     * GI_SHAPE_NONE has none. Null: vertex i of the file has normal first_normal + i, likewise
+     * texcoords. */
+    uint32_t (*normal_corners)[3], (*texcoord_corners)[3];
+    uint32_t first_normal, first_texcoord;
+} GiMesh;
+
 /* What a shape is to the scene, beside its numbers. */
 typedef struct GiShapeInfo {
     uint32_t shader; /* index; 0 is the default shader */
@@ -72,6 +105,14 @@ typedef struct GiTransform {
     GiAffine to_world, to_object;
 } GiTransform;
 
+/* A tree of its own under a transform: a mesh or a group that is not spread out. */
+typedef struct GiInstance {
+    const struct GiTree *tree;
+    uint32_t transform;
+    GiShapeInfo
+        info; /* of a mesh. Otherwise info.shader is GI_SHAPE_NONE: each shape has its own */
+} GiInstance;
+
 /* The arrays that refs index, with the one rule that changes where rays meet shapes. */
 typedef struct GiShapes {
     const GiSphere *spheres;
@@ -79,8 +120,15 @@ typedef struct GiShapes {
     const GiCone *cones;
     const GiDisc *discs;
     const GiPlane *planes;
+    const GiRectangle *rectangles;
+    GiTriangles triangles;
+    const GiMesh *meshes; /* in the order of their triangles */
+    uint32_t mesh_count;
+    const GiShapeInfo *mesh_info; /* parallel to meshes: of those that stand in a tree as triangles,
+                                     not as an instance */
     const GiPlacement *placements;
     const GiTransform *transforms;
+    const GiInstance *instances;
     const GiShapeInfo *info[GI_SHAPE_KIND_COUNT]; /* parallel to the arrays of each kind */
     bool entering_only; /* boxes do without their exits, cylinders without exits through caps */
 } GiShapes;

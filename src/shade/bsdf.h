@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT
+ * What a surface does with light at one point: how it reflects light that comes from a direction
+ * (the local part), and which rays it sends on (branches: mirror and refraction). The formulas are
+ * docs/scene-format.md's; what differs between years is asked of GiRules. */
+#pragma once
+
+#include "scene/scene.h"
+
+/* A point of a surface with its shader. */
+typedef struct GiShading {
+    const GiScene *scene; /* for substrates */
+    const GiRules *rules;
+    const GiShader *shader;
+    GiVec normal;        /* n: unit, outward */
+    GiVec toward_viewer; /* v: unit */
+    GiVec diffuse;       /* kd: the shader's, or the texture's there */
+} GiShading;
+
+/* ---- the local part: all but mirrors and refraction */
+
+/* f(l, v) n.l: light of strength E from the unit direction l adds E times this. Glazed and Glass
+ * have none of their own. */
+GiVec gi_bsdf_evaluate(const GiShading *at, GiVec l);
+
+/* Draws a direction from three numbers in [0, 1) and returns the density per solid angle with which
+ * it does, 0 when it draws none. The light that comes from there counts evaluate / density. */
+double gi_bsdf_sample(const GiShading *at, const double u[3], GiVec *l);
+
+/* The density with which gi_bsdf_sample draws l. */
+double gi_bsdf_density(const GiShading *at, GiVec l);
+
+/* ---- branches */
+
+enum { GI_BRANCH_LIMIT = GI_SUBSTRATE_LIMIT + 3 };
+
+/* A ray that goes on from the surface: what it brings counts `factor`. */
+typedef struct GiBranch {
+    GiVec direction; /* unit */
+    GiVec factor;
+    double weight; /* of the whole path so far, with this branch; rules->least_weight is about it */
+    bool inside;   /* the new ray runs in glass (rules->glass_by_flag) */
+} GiBranch;
+
+typedef struct GiScatter {
+    GiShading local;    /* what is under all glazing, ready for gi_bsdf_...; its shader is null
+                           when nothing is left for light sources to be reflected by */
+    GiVec local_factor; /* of its reflected light */
+    int count;
+    GiBranch branch[GI_BRANCH_LIMIT];
+} GiScatter;
+
+/* The ray that met the surface: its level (camera rays: 1), weight (camera rays: 1) and whether it
+ * runs in glass. */
+typedef struct GiArrival {
+    int level;
+    double weight;
+    bool inside;
+} GiArrival;
+
+/* Takes glazing, glass and mirror coefficients apart. Branches below rules->least_weight are not
+ * listed; the caller drops those that would be deeper than rules->last_level. */
+void gi_bsdf_scatter(const GiShading *at, const GiArrival *arrival, GiScatter *scatter);
