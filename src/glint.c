@@ -512,7 +512,7 @@ GlintStatus glint_render(
 
 static GiTraceRay trace_ray(const GlintRay *ray) {
     return (GiTraceRay){gi_vec_from(ray->origin), gi_vec_from(ray->direction), ray->t_min,
-        ray->t_max, GI_SHAPE_NONE};
+        ray->t_max, GI_SHAPE_NONE, GI_SHAPE_NONE};
 }
 
 bool glint_trace(const GlintScene *scene, const GlintRay *ray, GlintHit *hit) {
@@ -522,9 +522,9 @@ bool glint_trace(const GlintScene *scene, const GlintRay *ray, GlintHit *hit) {
     GiTraceRay inner = trace_ray(ray);
     GiTraceHit found;
     if (!scene->kernel->closest(&world->trace, &inner, &found)) return false;
-    GiSurfacePoint at = gi_shape_point(&world->shapes, found.shape, inner.origin, inner.direction,
-        found.t, world->rules->cone_geometric);
-    const GiShapeInfo *info = gi_shape_info(&world->shapes, found.shape);
+    GiSurfacePoint at = gi_shape_point(&world->shapes, found.shape, found.instance, inner.origin,
+        inner.direction, found.t, world->rules->cone_geometric);
+    const GiShapeInfo *info = gi_shape_info(&world->shapes, found.shape, found.instance);
     *hit = (GlintHit){
         .t = found.t,
         .point = {at.point.x, at.point.y, at.point.z},

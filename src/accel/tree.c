@@ -25,7 +25,7 @@ static GiVec median_center(const GiShapes *shapes, const GiShapeRef *refs, size_
     double samples[3][SAMPLE];
     size_t found = 0, step = count / SAMPLE + 1;
     for (size_t i = 0; i < count && found < SAMPLE; i += step) {
-        GiBox box = gi_shape_bounds(shapes, refs[i]);
+        GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
         if (!box_is_finite(&box)) continue;
         samples[0][found] = box.low.x / 2 + box.high.x / 2;
         samples[1][found] = box.low.y / 2 + box.high.y / 2;
@@ -59,7 +59,7 @@ static void prepare_items(void *context, size_t begin, size_t end, int worker) {
     (void)worker;
     const Prepare *prepare = context;
     for (size_t i = begin; i < end; i++) {
-        GiBox box = gi_shape_bounds(prepare->shapes, prepare->refs[i]);
+        GiBox box = gi_shape_bounds(prepare->shapes, prepare->refs[i], GI_SHAPE_NONE);
         double growth = GI_TREE_GROWTH * largest_component(&box, prepare->center) +
                         GI_TREE_GROWTH_LEAST / prepare->scale;
         const GiVec reach = {growth, growth, growth};
@@ -227,7 +227,7 @@ static GlintStatus sort_out(GiMemory *memory, const GiShapes *shapes, const GiSh
     double reach = 0;
     size_t unbounded = 0;
     for (size_t i = 0; i < count; i++) {
-        GiBox box = gi_shape_bounds(shapes, refs[i]);
+        GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
         if (box_is_finite(&box)) {
             reach = fmax(reach, largest_component(&box, store->tree.center));
         } else {
@@ -239,7 +239,7 @@ static GlintStatus sort_out(GiMemory *memory, const GiShapes *shapes, const GiSh
         store->unbounded = gi_memory_allocate(memory, unbounded * sizeof *store->unbounded);
         if (store->unbounded == NULL) return GLINT_ERROR_MEMORY;
         for (size_t i = 0; i < count; i++) {
-            GiBox box = gi_shape_bounds(shapes, refs[i]);
+            GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
             if (!box_is_finite(&box)) {
                 store->unbounded[store->tree.unbounded_count++] = refs[i];
             }
@@ -270,7 +270,7 @@ GlintStatus gi_tree_build(GiMemory *memory, GiPool *pool, const GiShapes *shapes
         if (item_count < count) { /* rare: drop the unbounded, keeping the order */
             size_t kept = 0;
             for (size_t i = 0; i < count; i++) {
-                GiBox box = gi_shape_bounds(shapes, refs[i]);
+                GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
                 if (box_is_finite(&box)) items[kept++] = items[i];
             }
         }

@@ -17,7 +17,7 @@ typedef struct Hit {
     GiVec point, normal, toward_viewer;
     double error; /* distance within which a ray from here might meet its own surface */
     uint32_t pixel, shader;
-    uint32_t skip; /* what shadow rays from here do not meet, or GI_SHAPE_NONE */
+    uint32_t skip, skip_instance; /* what shadow rays from here do not meet */
 } Hit;
 
 /* What a light will add to a hit unless something is in between: one struct with all that the
@@ -25,7 +25,7 @@ typedef struct Hit {
 typedef struct Pending {
     GiVec point, light;
     double t_min; /* of the ray from the point to the light, whose t is 1 there */
-    uint32_t pixel, skip;
+    uint32_t pixel, skip, skip_instance;
 } Pending;
 
 struct GiTileScratch {
@@ -72,13 +72,14 @@ static void keep_hit(const GiWorld *world, GiTileScratch *scratch, int i, uint32
     GiShapeRef ref = {bundle->shape[i]};
     GiVec origin = {bundle->ox[i], bundle->oy[i], bundle->oz[i]};
     GiVec direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]};
-    GiSurfacePoint at = gi_shape_point(
-        &world->shapes, ref, origin, direction, bundle->t[i], world->rules->cone_geometric);
+    uint32_t instance = bundle->instance[i];
+    GiSurfacePoint at = gi_shape_point(&world->shapes, ref, instance, origin, direction,
+        bundle->t[i], world->rules->cone_geometric);
     GiShapeRef own = gi_shape_unplaced(&world->shapes, ref);
     bool skip = !world->rules->sphere_shadows_itself && gi_shape_kind(own) == GI_SHAPE_SPHERE;
-    uint32_t shader = world->shapes.info[gi_shape_kind(own)][gi_shape_index(own)].shader;
+    uint32_t shader = gi_shape_info(&world->shapes, ref, instance)->shader;
     scratch->hits[scratch->hit_count++] = (Hit){at.point, at.normal, gi_negate(direction), at.error,
-        pixel, shader, skip ? ref.bits : GI_SHAPE_NONE};
+        pixel, shader, skip ? ref.bits : GI_SHAPE_NONE, instance};
     scratch->color[pixel] = gi_shade_emit(&world->scene->shaders.data[shader], at.normal);
 }
 
@@ -89,11 +90,13 @@ static void trace_apart(const GiWorld *world, GiBundle *bundle, const GiTileCont
         if (i % 16 == 0 && stopped(control)) continue;
         GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
             {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
-            bundle->skip[i]};
+            bundle->skip[i], bundle->skip_instance[i]};
         GiTraceHit hit;
         bool any = world->kernel->closest(&world->trace, &ray, &hit);
         bundle->shape[i] = any ? hit.shape.bits : GI_SHAPE_NONE;
-        if (any) bundle->t[i] = hit.t;
+        if (!any) continue;
+        bundle->t[i] = hit.t;
+        bundle->instance[i] = hit.instance;
     }
 }
 
@@ -117,7 +120,7 @@ static void trace_block(const GiWorld *world, const Extent *extent, int block_x,
             bundle->dz[count] = direction.z;
             bundle->t_min[count] = world->eye_error;
             bundle->t_max[count] = INFINITY;
-            bundle->skip[count] = GI_SHAPE_NONE;
+            bundle->skip[count] = bundle->skip_instance[count] = GI_SHAPE_NONE;
             pixels[count++] = (uint32_t)(y * STRIDE + x);
         }
     }
@@ -166,6 +169,7 @@ static void trace_pending(const GiWorld *world, const GiLight *light, int count,
             bundle->t_min[i] = pending->t_min;
             bundle->t_max[i] = 1;
             bundle->skip[i] = pending->skip;
+            bundle->skip_instance[i] = pending->skip_instance;
         }
         world->kernel->bundle_any(&world->trace, bundle);
         for (int i = 0; i < bundle->count; i++) {
@@ -205,7 +209,7 @@ static void add_light(const GiWorld *world, const GiLight *light, GiTileScratch 
         if (gi_vec_is_zero(adds)) continue;
         double away = rules->shadow_distance > 0 ? rules->shadow_distance : hit->error;
         scratch->pending[count] =
-            (Pending){hit->point, adds, away * inverse, hit->pixel, hit->skip};
+            (Pending){hit->point, adds, away * inverse, hit->pixel, hit->skip, hit->skip_instance};
         /* Of unit length, since scenes may be larger or smaller than a float can be. */
         regroup->x[count] = (float)(d.x * inverse);
         regroup->y[count] = (float)(d.y * inverse);
