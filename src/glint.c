@@ -329,6 +329,8 @@ GlintStatus glint_scene_add_shader(
     if (!is_finite3(desc->specular_color)) return ARGUMENT(error, "specular_color is not finite");
     if (!isfinite(desc->exponent)) return ARGUMENT(error, "exponent is not finite");
     GiShader shader = {
+        .texture = GI_NONE,
+        .substrate = GI_NONE,
         .type = desc->type,
         .diffuse_given = true,
         .diffuse = gi_vec_from(desc->diffuse_color),

@@ -8,6 +8,8 @@
 #pragma once
 
 #include "accel/layout.h"
+#include "kernel/points.h"
+#include "kernel/regroup.h"
 
 typedef struct GiTrace {
     const GiTree *tree;
@@ -68,6 +70,13 @@ typedef struct GiKernel {
     bool (*any)(const GiTrace *trace, const GiTraceRay *ray);
     void (*bundle_closest)(const GiTrace *trace, GiBundle *bundle);
     void (*bundle_any)(const GiTrace *trace, GiBundle *bundle);
+    /* Appends to *lit what the light adds to the points begin to end - 1, all of one shader, where
+     * it is not nothing, as shade/shade.h has it to the last bit. */
+    void (*light)(const GiPoints *points, int begin, int end, const GiPointLight *light,
+        const GiGloss *gloss, GiLit *lit);
+    void (*regroup_init)(GiRegroup *regroup); /* once */
+    /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT. */
+    void (*regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z, int count);
 } GiKernel;
 
 /* The kernels this build has and this machine can run, fastest first; null at the end. */

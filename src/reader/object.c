@@ -168,6 +168,8 @@ static void finish_shader(GiReader *reader, GiFrame *frame, GiFrame *parent) {
     bool used = parent->element->kind == GI_KIND_SURFACE && !is_group(parent);
     if (!used && reader->tags.data[frame->name] == '\0') return;
     GiShader shader = {
+        .texture = GI_NONE,
+        .substrate = GI_NONE,
         .type = (GlintShaderType)frame->type->value,
         .diffuse_given = gi_reader_is_given(reader, GI_SLOT_DIFFUSE),
         .diffuse = slot(reader, GI_SLOT_DIFFUSE),

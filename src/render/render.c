@@ -78,7 +78,7 @@ GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *ar
     if (render.scratch == NULL || render.counts == NULL) goto done;
     memset(render.counts, 0, counts_size);
     for (size_t i = 0; i < workers; i++) {
-        render.scratch[i] = gi_tile_scratch_create(memory);
+        render.scratch[i] = gi_tile_scratch_create(world);
         if (render.scratch[i] == NULL) goto done;
     }
     report(&render);

@@ -10,7 +10,7 @@ enum { GI_TILE_SIDE_LIMIT = 128 };
 
 typedef struct GiTileScratch GiTileScratch;
 
-GiTileScratch *gi_tile_scratch_create(GiMemory *memory); /* null: no memory */
+GiTileScratch *gi_tile_scratch_create(const GiWorld *world); /* null: no memory */
 void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch);
 
 /* How a tile learns that it is to stop: by the flag, and on the caller's thread by asking. */

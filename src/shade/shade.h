@@ -49,10 +49,15 @@ static inline GiVec gi_shade_reflect(
     return gi_vec(0, 0, 0);
 }
 
+/* Whether a light falls off with the square of the distance. */
+static inline bool gi_shade_light_falls(const GiLight *light, const GiRules *rules) {
+    return light->falloff == GLINT_FALLOFF_INVERSE_SQUARE ||
+           (light->falloff == GLINT_FALLOFF_DIALECT && rules->falloff);
+}
+
 /* E of a point light at the given squared distance. */
 static inline GiVec gi_shade_light(
     const GiLight *light, const GiRules *rules, double distance_square) {
-    bool falls = light->falloff == GLINT_FALLOFF_INVERSE_SQUARE ||
-                 (light->falloff == GLINT_FALLOFF_DIALECT && rules->falloff);
-    return falls ? gi_scale(light->intensity, 1 / distance_square) : light->intensity;
+    return gi_shade_light_falls(light, rules) ? gi_scale(light->intensity, 1 / distance_square)
+                                              : light->intensity;
 }
