@@ -12,6 +12,7 @@ plan='
 base:
 math:
 port:
+sample:
 sched: port
 shape:
 image: sched port
@@ -21,8 +22,8 @@ kernel: accel shape port
 shade: scene shape
 camera: scene
 reader: scene shape port
-render: shade camera kernel accel image sched scene shape port
-glint.c: render reader scene image accel kernel shape shade camera sched port
+render: sample shade camera kernel accel image sched scene shape port
+glint.c: sample render reader scene image accel kernel shape shade camera sched port
 '
 
 found=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' src --include='*.[ch]')
