@@ -12,17 +12,19 @@ plan='
 base:
 math:
 port:
+sample:
 sched: port
 shape:
 image: sched port
-scene: shape port
+light: image port
+scene: shape light port
 accel: shape sched port
 kernel: accel shape port
-shade: scene shape
+shade: scene shape light
 camera: scene
-reader: scene shape port
-render: shade camera kernel accel image sched scene shape port
-glint.c: render reader scene image accel kernel shape shade camera sched port
+reader: scene shape light port
+render: sample light shade camera kernel accel image sched scene shape port
+glint.c: sample light render reader scene image accel kernel shape shade camera sched port
 '
 
 found=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' src --include='*.[ch]')

@@ -39,8 +39,7 @@ void gi_scene_reset(GiScene *scene) {
     }
     gi_array_free(memory, &scene->pictures);
     gi_array_free(memory, &scene->textures);
-    size_t face = (size_t)scene->environment.face;
-    gi_memory_free(memory, scene->environment.pixels, face * face * 12 * 3 * sizeof(float));
+    gi_environment_free(&scene->environment, memory);
     gi_array_free(memory, &scene->groups);
     gi_array_free(memory, &scene->matrices);
     gi_array_free(memory, &scene->roots);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "base/array.h"
+#include "light/environment.h"
 #include "mesh/mesh.h"
 #include "scene/dialect.h"
 #include "shape/shape.h"
@@ -62,13 +63,6 @@ typedef struct GiPicture {
     int width, height;
     uint8_t *rgb; /* width * height * 3 */
 } GiPicture;
-
-/* Radiance from all around (docs/scene-format.md, cubemap). */
-typedef struct GiEnvironment {
-    int face;      /* side of a face in pixels; 0: there is none */
-    float *pixels; /* a cross of 3 x 4 faces, RGB, row 0 as stored first */
-    double scale;
-} GiEnvironment;
 
 typedef enum GiTransformStepKind {
     GI_STEP_TRANSLATE,
