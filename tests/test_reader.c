@@ -83,6 +83,31 @@ static void numbers(void) {
     }
 }
 
+/* Every count of digits on both sides of the point, and whatever may follow. */
+static void digits_and_places(void) {
+    static const char *const tails[] = {"", " ", " 123456789", ".5", "e", "x", "-1.5", "\xb2\xb3"};
+    for (int whole = 0; whole <= 11; whole++) {
+        for (int places = 0; places <= 11; places++) {
+            if (whole + places == 0) continue;
+            char number[32], text[64];
+            snprintf(text, sizeof text, "%llu",
+                (unsigned long long)(next_random() % 90000000000 + 10000000000));
+            snprintf(number, sizeof number, "%s%.*s%s%.*s", places % 3 == 0 ? "-" : "", whole,
+                "98765432109", places > 0 ? "." : "", places, text);
+            check_number(number);
+            double expected = strtod(number, NULL), value;
+            for (size_t i = 0; i < sizeof tails / sizeof tails[0]; i++) {
+                if (tails[i][0] == '.' && places == 0) continue;
+                size_t used;
+                snprintf(text, sizeof text, "%s%s", number, tails[i]);
+                CHECK_INT(gi_number_read(text, strlen(text), &value, &used), GI_NUMBER_OK);
+                CHECK_INT(used, strlen(number));
+                CHECK_NEAR(value, expected, 0);
+            }
+        }
+    }
+}
+
 static void not_numbers(void) {
     static const char *const texts[] = {
         "", "+", "-", ".", "+.", "e1", ".e1", "inf", "nan", "--1", "+-1", "x"};
@@ -369,6 +394,7 @@ static void encodings(void) {
     unload();
 }
 
-const GiTest tests_reader[] = {TEST(numbers), TEST(not_numbers), TEST(tables), TEST(suggestions),
-    TEST(defaults), TEST(values), TEST(last_one_wins), TEST(comments_inside), TEST(cones),
-    TEST(names), TEST(groups), TEST(group_order), TEST(dialects), TEST(encodings), TEST_END};
+const GiTest tests_reader[] = {TEST(numbers), TEST(digits_and_places), TEST(not_numbers),
+    TEST(tables), TEST(suggestions), TEST(defaults), TEST(values), TEST(last_one_wins),
+    TEST(comments_inside), TEST(cones), TEST(names), TEST(groups), TEST(group_order),
+    TEST(dialects), TEST(encodings), TEST_END};

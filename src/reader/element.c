@@ -123,14 +123,16 @@ const GiType gi_types[] = {
 
 /* ---------------------------------------------------------------- finding */
 
+/* Setting a bit makes small letters of capitals; that it also mixes up other characters does no
+ * harm here. */
 static unsigned hash_name(const char *name) {
     unsigned hash = 0;
-    for (; *name != '\0'; name++) hash = hash * 31 + (unsigned char)gi_lower(*name);
+    for (; *name != '\0'; name++) hash = hash * 3 + ((unsigned char)*name | 0x20u);
     return (hash ^ hash >> 7) % GI_ELEMENT_SLOT_COUNT;
 }
 
 static bool same_name(const char *a, const char *b) {
-    while (*a != '\0' && gi_lower(*a) == gi_lower(*b)) a++, b++;
+    while (*a != '\0' && (*a == *b || gi_lower(*a) == gi_lower(*b))) a++, b++;
     return *a == '\0' && *b == '\0';
 }
 
@@ -153,7 +155,8 @@ const GiElement *gi_element_find(const GiElementIndex *index, const char *name, 
 
 const GiType *gi_type_find(const char *name, GiKind kind) {
     for (const GiType *type = gi_types; type->name != NULL; type++) {
-        if (type->kind == kind && strcmp(type->name, name) == 0) return type;
+        if (type->kind != kind || type->name[0] != name[0]) continue;
+        if (strcmp(type->name, name) == 0) return type;
     }
     return NULL;
 }

@@ -81,6 +81,8 @@ typedef struct GiReader {
     size_t text_size;
     int64_t text_next; /* offset at which a further piece continues the last segment */
     bool text_overflow;
+    bool value_ready; /* `value` is what the text, all of it, says */
+    GiVec value;
     GiSegment segments[GI_SEGMENT_LIMIT];
     size_t segment_count;
 } GiReader;

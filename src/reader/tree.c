@@ -74,23 +74,31 @@ static bool push_text(GiReader *reader, const char *text, size_t size, uint32_t 
 
 static GiFrame *push_frame(GiReader *reader, const char *tag) {
     enum { TAG_SHOWN = 80 };
-    GiFrame frame = {.place = {.offset = XML_GetCurrentByteIndex(reader->parser)}};
-    size_t length = 0;
-    while (length < TAG_SHOWN && tag[length] != '\0') length++;
+    GiPlace place = {.offset = XML_GetCurrentByteIndex(reader->parser)};
     if (reader->frames.count >= GI_DEPTH_LIMIT) {
-        gi_report_add(&reader->report, frame.place, 1, "elements are nested more than %d deep",
-            GI_DEPTH_LIMIT);
+        gi_report_add(
+            &reader->report, place, 1, "elements are nested more than %d deep", GI_DEPTH_LIMIT);
         gi_reader_stop(reader);
         return NULL;
     }
-    if (!gi_array_reserve(reader->memory, &reader->frames, 1) ||
-        !push_text(reader, tag, length, &frame.tag)) {
+    if (reader->tags.count > UINT32_MAX / 2 ||
+        !gi_array_reserve(reader->memory, &reader->frames, 1) ||
+        !gi_array_reserve(reader->memory, &reader->tags, TAG_SHOWN + 1)) {
         gi_reader_out_of_memory(reader);
         return NULL;
     }
-    frame.name = (uint32_t)reader->tags.count - 1; /* an empty string, until there is a name */
-    reader->frames.data[reader->frames.count++] = frame;
-    return gi_reader_top(reader);
+    char *copy = reader->tags.data + reader->tags.count;
+    size_t length = 0;
+    for (; length < TAG_SHOWN && tag[length] != '\0'; length++) copy[length] = tag[length];
+    copy[length] = '\0';
+    /* Written where it stays: copying what was just put together member by member stalls. */
+    GiFrame *frame = &reader->frames.data[reader->frames.count++];
+    memset(frame, 0, sizeof *frame);
+    frame->place = place;
+    frame->tag = (uint32_t)reader->tags.count;
+    frame->name = frame->tag + (uint32_t)length; /* an empty string, until there is a name */
+    reader->tags.count += length + 1;
+    return frame;
 }
 
 static void pop_frame(GiReader *reader) {
@@ -279,7 +287,7 @@ static void read_dialect(GiReader *reader, const char *name, int index) {
  * that what stands inside is judged by it. */
 static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attributes) {
     GiKind kind = frame->element->kind;
-    const char *noun = strchr(gi_kind_text(kind), ' ') + 1, *name = attributes->type;
+    const char *name = attributes->type;
     char list[240], quote[GI_QUOTE_SIZE];
     if (name == NULL) {
         if (kind == GI_KIND_CAMERA) frame->type = gi_type_find("PerspectiveCamera", kind);
@@ -314,6 +322,7 @@ static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attrib
         gi_report_add(&reader->report, place, length, "`%s` is not supported yet", later->name);
         return;
     }
+    const char *noun = strchr(gi_kind_text(kind), ' ') + 1;
     gi_quote(quote, name, strlen(name));
     gi_type_list_text(kind, list, sizeof list);
     for (const GiType *type = gi_types; type->name != NULL; type++) {

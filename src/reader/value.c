@@ -12,6 +12,43 @@
 
 static bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 
+/* ---------------------------------------------------------------- correct values */
+
+static bool is_whole(const char *text, size_t size) {
+    size_t i = size > 0 && (text[0] == '-' || text[0] == '+');
+    if (i == size) return false;
+    for (; i < size; i++) {
+        if (text[i] < '0' || text[i] > '9') return false;
+    }
+    return true;
+}
+
+static double *component(GiVec *value, int index) {
+    return index == 0 ? &value->x : index == 1 ? &value->y : &value->z;
+}
+
+/* False when anything is wrong. */
+static bool read_quickly(const char *text, size_t size, GiKind kind, GiVec *value) {
+    int count = gi_kind_count(kind);
+    size_t i = 0;
+    *value = gi_vec(0, 0, 0);
+    for (int n = 0; n < count; n++) {
+        size_t used;
+        while (i < size && is_space(text[i])) i++;
+        if (gi_number_read(text + i, size - i, component(value, n), &used) != GI_NUMBER_OK ||
+            (i + used < size && !is_space(text[i + used]))) {
+            return false;
+        }
+        if ((kind == GI_KIND_INTEGER || kind == GI_KIND_INTEGER_PAIR) &&
+            (!is_whole(text + i, used) || fabs(*component(value, n)) > INT_MAX)) {
+            return false;
+        }
+        i += used;
+    }
+    while (i < size && is_space(text[i])) i++;
+    return i == size;
+}
+
 /* ---------------------------------------------------------------- collecting */
 
 void gi_value_begin(GiReader *reader) {
@@ -19,6 +56,7 @@ void gi_value_begin(GiReader *reader) {
     reader->segment_count = 0;
     reader->text_next = -1;
     reader->text_overflow = false;
+    reader->value_ready = false;
 }
 
 static void append(GiReader *reader, const char *text, size_t size, int64_t offset) {
@@ -56,11 +94,16 @@ static GiPlace place_of(const GiReader *reader, const GiFrame *frame, size_t ind
 
 void gi_value_append(GiReader *reader, const char *text, size_t size, int64_t offset) {
     if (reader->text_overflow) return;
-    /* The common case: short text, kept as it is. */
+    /* The common case: short text, kept as it is. Mostly the first piece is all there is; it is
+     * read here, since reading the copy would have to wait for the copy. */
     if (size <= GI_TEXT_LIMIT / 2 && reader->text_size <= GI_TEXT_LIMIT / 2 - size) {
+        GiKind kind = gi_reader_top(reader)->element->kind;
+        reader->value_ready =
+            reader->text_size == 0 && read_quickly(text, size, kind, &reader->value);
         append(reader, text, size, offset);
         return;
     }
+    reader->value_ready = false;
     /* Otherwise white space shrinks to one blank, so that any amount of it is bounded. */
     for (size_t i = 0; i < size;) {
         size_t begin = i;
@@ -105,15 +148,6 @@ static int token_length(const GiReader *reader, Token token) {
     return gi_text_length(reader->text + token.begin, token.end - token.begin);
 }
 
-static bool is_whole(const char *text, size_t size) {
-    size_t i = size > 0 && (text[0] == '-' || text[0] == '+');
-    if (i == size) return false;
-    for (; i < size; i++) {
-        if (text[i] < '0' || text[i] > '9') return false;
-    }
-    return true;
-}
-
 /* One number that is the whole token; null, or what is wrong with it. */
 static const char *read_number(const char *text, size_t size, GiKind kind, double *value) {
     size_t used;
@@ -142,30 +176,6 @@ static const char *read_number(const char *text, size_t size, GiKind kind, doubl
     if (whole && !is_whole(text, size)) return "is whole: write it without a point or exponent";
     if (status == GI_NUMBER_TOO_LARGE) return "is too large: the limit is about 1.8e308";
     return NULL;
-}
-
-static double *component(GiVec *value, int index) {
-    return index == 0 ? &value->x : index == 1 ? &value->y : &value->z;
-}
-
-static bool read_quickly(const GiReader *reader, GiKind kind, int count, GiVec *value) {
-    const char *text = reader->text;
-    size_t size = reader->text_size, i = 0;
-    for (int n = 0; n < count; n++) {
-        size_t used;
-        while (i < size && is_space(text[i])) i++;
-        if (gi_number_read(text + i, size - i, component(value, n), &used) != GI_NUMBER_OK ||
-            (i + used < size && !is_space(text[i + used]))) {
-            return false;
-        }
-        if ((kind == GI_KIND_INTEGER || kind == GI_KIND_INTEGER_PAIR) &&
-            (!is_whole(text + i, used) || fabs(*component(value, n)) > INT_MAX)) {
-            return false;
-        }
-        i += used;
-    }
-    while (i < size && is_space(text[i])) i++;
-    return i == size;
 }
 
 /* ---------------------------------------------------------------- errors */
@@ -292,13 +302,13 @@ bool gi_value_check(
 
 bool gi_value_finish(GiReader *reader, const GiFrame *frame, GiVec *value) {
     const GiElement *element = frame->element;
-    int count = gi_kind_count(element->kind);
-    *value = gi_vec(0, 0, 0);
     if (element->kind == GI_KIND_CHOICE) return read_choice(reader, frame, value);
-    if (!read_quickly(reader, element->kind, count, value)) {
-        report_tokens(reader, frame, count);
+    if (!reader->value_ready &&
+        !read_quickly(reader->text, reader->text_size, element->kind, &reader->value)) {
+        report_tokens(reader, frame, gi_kind_count(element->kind));
         return false;
     }
+    *value = reader->value;
     if (passes(element->check, *value)) return true;
     size_t begin = 0, end = reader->text_size;
     while (is_space(reader->text[begin])) begin++;
