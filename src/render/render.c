@@ -50,6 +50,7 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
     /* A worker may be called more than once. */
     render->counts[worker].camera_rays += counts.camera_rays;
     render->counts[worker].shadow_rays += counts.shadow_rays;
+    render->counts[worker].other_rays += counts.other_rays;
 }
 
 /* Large tiles trace faster, many tiles share out better: the largest side that leaves every worker
@@ -88,9 +89,13 @@ GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *ar
     for (size_t i = 0; i < workers; i++) {
         counts->camera_rays += render.counts[i].camera_rays;
         counts->shadow_rays += render.counts[i].shadow_rays;
+        counts->other_rays += render.counts[i].other_rays;
     }
     bool whole = atomic_load(&render.done) == render.columns * render.rows;
     status = atomic_load(&render.stop) && !whole ? GLINT_CANCELLED : GLINT_OK;
+    for (size_t i = 0; i < workers; i++) {
+        if (gi_tile_out_of_memory(render.scratch[i])) status = GLINT_ERROR_MEMORY;
+    }
 done:
     for (size_t i = 0; render.scratch != NULL && i < workers; i++) {
         gi_tile_scratch_destroy(memory, render.scratch[i]);

@@ -6,6 +6,7 @@
 
 typedef struct GiRenderCounts {
     uint64_t camera_rays, shadow_rays;
+    uint64_t other_rays; /* mirrored, refracted, scattered */
 } GiRenderCounts;
 
 /* The part of a picture to draw; x and y count from the top left corner. */

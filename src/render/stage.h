@@ -12,6 +12,8 @@
 #pragma once
 
 #include "render/tile.h"
+#include "sample/sampler.h"
+#include "shade/bsdf.h"
 
 enum {
     GI_TILE_STRIDE = GI_TILE_SIDE_LIMIT,
@@ -23,6 +25,7 @@ enum {
 typedef struct GiSpot {
     uint32_t pixel, shader;
     uint32_t skip, skip_instance; /* what shadow rays from here do not meet, or GI_SHAPE_NONE */
+    uint32_t level;               /* of the ray that met it */
 } GiSpot;
 
 /* Points begin to end - 1 have one shader. */
@@ -36,8 +39,10 @@ typedef struct GiFlight {
     GiVec origin, direction; /* unit */
     GiVec factor;
     double t_min, weight;
+    double density;        /* with which a bsdf drew it; 0: it is a mirror's or refracted */
     uint32_t pixel, level; /* rays of the camera: 1 */
     bool inside;           /* in glass */
+    bool probe;            /* looks for lights only */
 } GiFlight;
 
 /* Rays first to end - 1 of the flights; they have one level. */
@@ -74,24 +79,59 @@ typedef struct GiStage {
     const GiTileControl *control;
     GiTileScratch *scratch;
     GiRenderCounts *counts;
+    uint32_t x, y, sample; /* the tile's corner in the whole picture; number of the sample */
 } GiStage;
 
 /* Whether to stop; asks the caller now and then. */
 bool gi_stage_stopped(const GiStage *stage);
+
+/* The numbers of a pixel's sample. A dimension is a purpose at a level. */
+static inline GiSampler gi_stage_sampler(const GiStage *stage, uint32_t pixel) {
+    return gi_sampler(
+        stage->x + pixel % GI_TILE_STRIDE, stage->y + pixel / GI_TILE_STRIDE, stage->sample);
+}
+
+typedef enum GiPurpose {
+    GI_PURPOSE_CHOICE,   /* of what goes on */
+    GI_PURPOSE_LOBE,     /* of a bsdf */
+    GI_PURPOSE_BSDF,     /* its direction */
+    GI_PURPOSE_ROULETTE, /* whether a path goes on */
+    GI_PURPOSE_SKY,
+    GI_PURPOSE_LIGHT /* the first of the lights; the others follow */
+} GiPurpose;
+
+static inline uint32_t gi_stage_dimension(uint32_t level, uint32_t purpose) {
+    return level << 16 | purpose;
+}
+
+/* The weight of one of two ways to draw the same light, by their densities (Veach and Guibas 1995,
+ * power heuristic). */
+static inline double gi_stage_share(double density, double other) {
+    double a = density * density, b = other * other;
+    return a > 0 ? a / (a + b) : 0;
+}
 
 /* ---- surface.c */
 
 /* The rays of the bundle: pixels[i] is where ray i began. */
 void gi_surface_bundle(const GiStage *stage, const uint32_t *pixels);
 
-/* A ray under way that met something. */
+/* A ray under way, with what it met; null: nothing. */
 void gi_surface_flight(const GiStage *stage, const GiFlight *flight, const GiTraceHit *hit);
 
-/* What a ray sees that meets nothing. */
-GiVec gi_surface_background(const GiWorld *world, GiVec direction);
+/* The shading of point i. */
+GiShading gi_surface_shading(const GiStage *stage, int i);
+
+/* Whether light from large sources is also looked for along directions that the bsdf draws. */
+bool gi_surface_probes(const GiWorld *world, const GiShader *shader);
 
 /* ---- lights.c: adds the light of all lights to all points, and forgets the points. */
 void gi_lights_add(const GiStage *stage);
 
-/* ---- flight.c: follows the flights until none is left. */
+/* ---- flight.c */
+
+/* Notes a ray to be followed. */
+void gi_flight_add(const GiStage *stage, const GiFlight *flight);
+
+/* Follows the flights until none is left. */
 void gi_flight_follow(const GiStage *stage);

@@ -38,6 +38,8 @@ void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch) {
     gi_memory_free_lines(memory, scratch, 1, sizeof *scratch);
 }
 
+bool gi_tile_out_of_memory(const GiTileScratch *scratch) { return scratch->out_of_memory; }
+
 /* The tile's pixels that lie in the area. */
 typedef struct Extent {
     int x, y, width, height;
@@ -121,6 +123,7 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Ex
     double offset_x, double offset_y) {
     GiTileScratch *scratch = stage->scratch;
     scratch->point_count = scratch->segment_count = 0;
+    scratch->weighted = false;
     for (int x = 0; x < extent->width; x++) {
         scratch->across[x] = (extent->x + x + offset_x) / area->width;
     }
@@ -136,6 +139,7 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Ex
     }
     stage->counts->camera_rays += (uint64_t)extent->width * (uint64_t)extent->height;
     gi_lights_add(stage);
+    gi_flight_follow(stage);
 }
 
 void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
@@ -143,7 +147,7 @@ void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
     Extent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
     if (extent.width > side) extent.width = side;
     if (extent.height > side) extent.height = side;
-    const GiStage stage = {world, control, scratch, counts};
+    GiStage stage = {world, control, scratch, counts, (uint32_t)extent.x, (uint32_t)extent.y, 0};
     scratch->bundle.stop = ask;
     scratch->bundle.stop_context = control;
     const GiScene *scene = world->scene;
@@ -153,6 +157,7 @@ void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
         for (int i = 0; i < extent.width; i++) scratch->sum[row * STRIDE + i] = gi_vec(0, 0, 0);
     }
     for (int sample = 0; sample < n * n; sample++) {
+        stage.sample = (uint32_t)sample;
         draw_sample(&stage, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n);
         if (stopped(control)) return;
         for (int row = 0; row < extent.height; row++) {

@@ -13,6 +13,9 @@ typedef struct GiTileScratch GiTileScratch;
 GiTileScratch *gi_tile_scratch_create(const GiWorld *world); /* null: no memory */
 void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch);
 
+/* Whether drawing stopped because memory was short. */
+bool gi_tile_out_of_memory(const GiTileScratch *scratch);
+
 /* How a tile learns that it is to stop: by the flag, and on the caller's thread by asking. */
 typedef struct GiTileControl {
     _Atomic bool *stop;
