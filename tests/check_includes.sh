@@ -17,14 +17,15 @@ sched: port
 shape:
 image: sched port
 light: image port
-scene: shape light port
+texture: port
+scene: shape light texture port
 accel: shape sched port
 kernel: accel shape port
-shade: scene shape light
+shade: scene shape light texture
 camera: scene
-reader: scene shape light port
-render: sample light shade camera kernel accel image sched scene shape port
-glint.c: sample light render reader scene image accel kernel shape shade camera sched port
+reader: scene shape light texture port
+render: sample light texture shade camera kernel accel image sched scene shape port
+glint.c: sample light texture render reader scene image accel kernel shape shade camera sched port
 '
 
 found=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' src --include='*.[ch]')

@@ -284,10 +284,10 @@ static void environment_refused(void) {
     size_t size = 36 * 4 * sizeof(float);
     check_refused("Pf\n6 8\n-1.0\n", map.pixels, size, "no colour");
     check_refused("P6\n6 8\n255\n", map.pixels, size, "not a PFM");
-    check_refused("P", NULL, 0, "too early");
-    check_refused("PF\n", NULL, 0, "too early");
+    check_refused("P", "", 0, "too early");
+    check_refused("PF\n", "", 0, "too early");
     check_refused("PF\n6 8\n-1.0\n", map.pixels, size - 1, "too early");
-    check_refused("PF\n6 8\n-1.0", NULL, 0, "too early");
+    check_refused("PF\n6 8\n-1.0", "", 0, "too early");
     check_refused("PF\n6 six\n-1.0\n", map.pixels, size, "not a number");
     check_refused("PF\n-6 8\n-1.0\n", map.pixels, size, "not a number");
     check_refused("PF\n6 0\n-1.0\n", map.pixels, size, "zero");
@@ -301,7 +301,7 @@ static void environment_refused(void) {
     memset(longer, '1', sizeof longer);
     memcpy(longer, "PF\n6 8\n", 7);
     longer[sizeof longer - 1] = '\0';
-    check_refused(longer, NULL, 0, "header");
+    check_refused(longer, "", 0, "header");
     map.pixels[3 * (2 * 6 * 2 + 1)] = INFINITY; /* second pixel of the third square's row */
     check_refused("PF\n6 8\n-1.0\n", map.pixels, size, "not finite");
     free(map.pixels);

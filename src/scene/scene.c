@@ -34,8 +34,7 @@ void gi_scene_reset(GiScene *scene) {
     gi_mesh_store_free(&scene->meshes, memory);
     gi_array_free(memory, &scene->mesh_surfaces);
     for (size_t i = 0; i < scene->pictures.count; i++) {
-        const GiPicture *picture = &scene->pictures.data[i];
-        gi_memory_free(memory, picture->rgb, (size_t)picture->width * (size_t)picture->height * 3);
+        gi_picture_free(&scene->pictures.data[i], memory);
     }
     gi_array_free(memory, &scene->pictures);
     gi_array_free(memory, &scene->textures);

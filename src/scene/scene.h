@@ -12,6 +12,7 @@
 #include "mesh/mesh.h"
 #include "scene/dialect.h"
 #include "shape/shape.h"
+#include "texture/texture.h"
 
 typedef struct GiCamera {
     GlintCameraType type;
@@ -50,19 +51,11 @@ typedef struct GiMeshSurface {
     GiShapeInfo info;
 } GiMeshSurface;
 
-typedef enum GiWrap { GI_WRAP_REPEAT, GI_WRAP_CLAMP } GiWrap;
-
 /* An image may be shared by textures that wrap it differently. */
 typedef struct GiTexture {
     uint32_t picture;
     GiWrap wrap;
 } GiTexture;
-
-/* 8-bit RGB, top row first, as the file has it. */
-typedef struct GiPicture {
-    int width, height;
-    uint8_t *rgb; /* width * height * 3 */
-} GiPicture;
 
 typedef enum GiTransformStepKind {
     GI_STEP_TRANSLATE,
