@@ -201,5 +201,5 @@ void gi_world_reset(GiWorld *world, GiMemory *memory) {
     gi_array_free(memory, &world->placements);
     gi_array_free(memory, &world->transforms);
     gi_array_free(memory, &world->rectangles);
-    gi_environment_sampler_reset(&world->sky, memory);
+    if (world->sky_lights) gi_environment_sampler_reset(&world->sky, memory);
 }
