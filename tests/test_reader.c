@@ -150,6 +150,26 @@ static void tables(void) {
     }
 }
 
+/* Guesses, right and wrong ones, never change what is found. */
+static void guesses(void) {
+    static const struct {
+        const char *name;
+        uint32_t contexts;
+    } file[] = {{"shader", GI_IN_SCENE}, {"color", GI_IN_PHONG}, {"light", GI_IN_SCENE},
+        {"color", GI_IN_POINT_LIGHT}, {"surface", GI_IN_SCENE}, {"Shader", GI_IN_SPHERE},
+        {"radius", GI_IN_SPHERE}, {"radiu", GI_IN_SPHERE}, {"radius", GI_IN_BOX},
+        {"surface", GI_IN_SCENE}, {"minPt", GI_IN_BOX}, {"surface", GI_IN_GROUP},
+        {"shader", GI_IN_SPHERE}, {"shader", GI_IN_SCENE}, {"color", GI_IN_NORMAL_LIGHT}};
+    GiElementIndex index;
+    gi_element_index_init(&index);
+    for (size_t i = 0; i < 3 * sizeof file / sizeof file[0]; i++) {
+        const char *name = file[i % (sizeof file / sizeof file[0])].name;
+        uint32_t contexts = file[i % (sizeof file / sizeof file[0])].contexts;
+        const GiElement *found = gi_element_find(&index, name, contexts);
+        CHECK(gi_element_guess(&index, name, contexts) == found);
+    }
+}
+
 static void suggestions(void) {
     CHECK_INT(gi_edit_distance("center", 6, "centre", 6, 3), 1);
     CHECK_INT(gi_edit_distance("SPHERE", 6, "sphere", 6, 3), 0);
@@ -395,6 +415,6 @@ static void encodings(void) {
 }
 
 const GiTest tests_reader[] = {TEST(numbers), TEST(digits_and_places), TEST(not_numbers),
-    TEST(tables), TEST(suggestions), TEST(defaults), TEST(values), TEST(last_one_wins),
-    TEST(comments_inside), TEST(cones), TEST(names), TEST(groups), TEST(group_order),
-    TEST(dialects), TEST(encodings), TEST_END};
+    TEST(tables), TEST(guesses), TEST(suggestions), TEST(defaults), TEST(values),
+    TEST(last_one_wins), TEST(comments_inside), TEST(cones), TEST(names), TEST(groups),
+    TEST(group_order), TEST(dialects), TEST(encodings), TEST_END};

@@ -47,11 +47,13 @@ typedef struct Prepare {
     GiBuildItem *items;
 } Prepare;
 
+static inline double larger(double a, double b) { return a > b ? a : b; } /* fmax is a call */
+
 static double largest_component(const GiBox *box, GiVec center) {
     GiVec low = gi_sub(box->low, center), high = gi_sub(box->high, center);
-    double x = fmax(fabs(low.x), fabs(high.x)), y = fmax(fabs(low.y), fabs(high.y)),
-           z = fmax(fabs(low.z), fabs(high.z));
-    return fmax(x, fmax(y, z));
+    double x = larger(fabs(low.x), fabs(high.x)), y = larger(fabs(low.y), fabs(high.y)),
+           z = larger(fabs(low.z), fabs(high.z));
+    return larger(x, larger(y, z));
 }
 
 /* Boxes in kernel space, grown by the error bound (layout.h). */
@@ -111,7 +113,7 @@ static uint32_t emit_spheres(Layout *layout, const GiBuildNode *leaf) {
         const GiSphere *sphere = &layout->shapes->spheres[gi_shape_index(ref)];
         GiVec center = gi_scale(gi_sub(sphere->center, layout->center), layout->scale);
         double radius = sphere->radius * layout->scale;
-        double farthest = fmax(fabs(center.x), fmax(fabs(center.y), fabs(center.z))) + radius;
+        double farthest = larger(fabs(center.x), larger(fabs(center.y), fabs(center.z))) + radius;
         block->center[0][i] = (float)center.x;
         block->center[1][i] = (float)center.y;
         block->center[2][i] = (float)center.z;
@@ -133,6 +135,16 @@ static uint32_t emit_boxes(Layout *layout, const GiBuildNode *leaf) {
         block->shape[i].bits = item != NULL ? gi_build_id(item) : GI_SHAPE_NONE;
     }
     return GI_CHILD_BLOCK | tree->box_block_count++;
+}
+
+/* The items of a leaf lie anywhere in the array of spheres: without this, emit_spheres waits for
+ * memory more than for all else. */
+static void fetch_leaf(const Layout *layout, const GiBuildNode *node) {
+    for (uint32_t i = 0; i < node->count; i++) {
+        GiShapeRef ref = {gi_build_id(&layout->items[node->first + i])};
+        if (gi_shape_kind(ref) != GI_SHAPE_SPHERE) continue;
+        __builtin_prefetch(&layout->shapes->spheres[gi_shape_index(ref)]);
+    }
 }
 
 static void add_cost(Layout *layout, const GiBuildNode *node) {
@@ -178,6 +190,7 @@ static uint32_t emit(Layout *layout, uint32_t index) {
         }
         node->child[i] = GI_CHILD_NONE;
     }
+    for (int i = 0; i < count; i++) fetch_leaf(layout, &nodes[children[i]]);
     for (int i = 0; i < count; i++) {
         uint32_t child = emit(layout, children[i]);
         layout->store->nodes[node_index].child[i] = child;
@@ -229,7 +242,7 @@ static GlintStatus sort_out(GiMemory *memory, const GiShapes *shapes, const GiSh
     for (size_t i = 0; i < count; i++) {
         GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
         if (box_is_finite(&box)) {
-            reach = fmax(reach, largest_component(&box, store->tree.center));
+            reach = larger(reach, largest_component(&box, store->tree.center));
         } else {
             unbounded++;
         }

@@ -153,6 +153,19 @@ const GiElement *gi_element_find(const GiElementIndex *index, const char *name, 
     return NULL;
 }
 
+const GiElement *gi_element_guess(GiElementIndex *index, const char *name, uint32_t contexts) {
+    uint8_t *guess = &index->after[index->last];
+    const GiElement *element = *guess > 0 ? &gi_elements[*guess - 1] : NULL;
+    if (element == NULL || (element->contexts & contexts) == 0 ||
+        strcmp(element->name, name) != 0) {
+        element = gi_element_find(index, name, contexts);
+        if (element == NULL) return NULL;
+        *guess = (uint8_t)(element - gi_elements + 1);
+    }
+    index->last = *guess;
+    return element;
+}
+
 const GiType *gi_type_find(const char *name, GiKind kind) {
     for (const GiType *type = gi_types; type->name != NULL; type++) {
         if (type->kind != kind || type->name[0] != name[0]) continue;

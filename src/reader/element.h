@@ -123,12 +123,17 @@ enum { GI_ELEMENT_LIMIT = 64, GI_ELEMENT_SLOT_COUNT = 128 };
 typedef struct GiElementIndex {
     uint8_t first[GI_ELEMENT_SLOT_COUNT]; /* row + 1 */
     uint8_t next[GI_ELEMENT_LIMIT];       /* row + 1 */
+    uint8_t after[GI_ELEMENT_LIMIT + 1];  /* row + 1 of what came after a row last time */
+    uint8_t last;                         /* row + 1 */
 } GiElementIndex;
 
 void gi_element_index_init(GiElementIndex *index);
 
 /* The element of that name (in any case) that may stand in one of the contexts, or null. */
 const GiElement *gi_element_find(const GiElementIndex *index, const char *name, uint32_t contexts);
+
+/* The same for the next element of a file: elements mostly follow each other as they did before. */
+const GiElement *gi_element_guess(GiElementIndex *index, const char *name, uint32_t contexts);
 
 /* Name exact, without the package. Null when the kind has no such type. */
 const GiType *gi_type_find(const char *name, GiKind kind);

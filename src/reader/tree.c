@@ -74,10 +74,10 @@ static bool push_text(GiReader *reader, const char *text, size_t size, uint32_t 
 
 static GiFrame *push_frame(GiReader *reader, const char *tag) {
     enum { TAG_SHOWN = 80 };
-    GiPlace place = {.offset = XML_GetCurrentByteIndex(reader->parser)};
+    int64_t offset = XML_GetCurrentByteIndex(reader->parser);
     if (reader->frames.count >= GI_DEPTH_LIMIT) {
-        gi_report_add(
-            &reader->report, place, 1, "elements are nested more than %d deep", GI_DEPTH_LIMIT);
+        gi_report_add(&reader->report, (GiPlace){.offset = offset}, 1,
+            "elements are nested more than %d deep", GI_DEPTH_LIMIT);
         gi_reader_stop(reader);
         return NULL;
     }
@@ -94,7 +94,7 @@ static GiFrame *push_frame(GiReader *reader, const char *tag) {
     /* Written where it stays: copying what was just put together member by member stalls. */
     GiFrame *frame = &reader->frames.data[reader->frames.count++];
     memset(frame, 0, sizeof *frame);
-    frame->place = place;
+    frame->place.offset = offset;
     frame->tag = (uint32_t)reader->tags.count;
     frame->name = frame->tag + (uint32_t)length; /* an empty string, until there is a name */
     reader->tags.count += length + 1;
@@ -225,25 +225,26 @@ static void report_attribute(
                  : "name and ref, and its value as text");
 }
 
+static bool is(const char *a, const char *b) { return a[0] == b[0] && strcmp(a, b) == 0; }
+
 static bool read_attributes(
     GiReader *reader, const GiElement *element, const XML_Char **list, Attributes *attributes) {
     bool scene = element->kind == GI_KIND_SCENE, good = true;
-    *attributes = (Attributes){.name = NULL};
     for (int i = 0; list[2 * i] != NULL; i++) {
         const char *name = list[2 * i], *value = list[2 * i + 1];
         bool long_value = false;
-        if (strcmp(name, "type") == 0 && gi_kind_is_object(element->kind) && !scene) {
+        if (is(name, "type") && gi_kind_is_object(element->kind) && !scene) {
             attributes->type = value;
             attributes->type_index = i;
-        } else if (strcmp(name, "ref") == 0 && !scene) {
+        } else if (is(name, "ref") && !scene) {
             attributes->ref = value;
             attributes->ref_index = i;
             long_value = strlen(value) > GI_NAME_LIMIT;
-        } else if (strcmp(name, "name") == 0) {
+        } else if (is(name, "name")) {
             attributes->name = value;
             attributes->name_index = i;
             long_value = strlen(value) > GI_NAME_LIMIT;
-        } else if (strcmp(name, "dialect") == 0 && scene) {
+        } else if (is(name, "dialect") && scene) {
             attributes->dialect = value;
             attributes->dialect_index = i;
         } else {
@@ -436,7 +437,7 @@ void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **lis
         bool root = strlen(tag) == 5 && gi_edit_distance(tag, 5, "scene", 5, 0) == 0;
         element = root ? &gi_elements[0] : NULL;
     } else {
-        element = gi_element_find(&reader->elements, tag, parent->contexts);
+        element = gi_element_guess(&reader->elements, tag, parent->contexts);
     }
     if (element == NULL) {
         /* Of a type that is not known, nobody can say what belongs in it. */
