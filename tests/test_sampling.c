@@ -4,7 +4,7 @@
 #include "shadings.h"
 #include "test.h"
 
-#include <stdio.h>
+#include <string.h>
 
 /* A surface to draw from. */
 typedef struct Case {
@@ -184,5 +184,47 @@ static void lobes(void) {
     CHECK(a.x == b.x && a.y == b.y && a.z == b.z && a.z == sqrt(0.7) && c.x < 0);
 }
 
-const GiTest tests_sampling[] = {
-    TEST(integrals), TEST(what_is_lost), TEST(directions), TEST(lobes), TEST_END};
+/* ---------------------------------------------------------------- bits */
+
+static void mix(uint64_t *hash, double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    *hash = (*hash ^ bits) * 0x100000001b3u;
+    *hash ^= *hash >> 32;
+}
+
+static void mix_vec(uint64_t *hash, GiVec v) {
+    mix(hash, v.x);
+    mix(hash, v.y);
+    mix(hash, v.z);
+}
+
+/* One number stands for all bits of many draws; it is the same for every compiler and library. What
+ * goes in must not come from the C library either. */
+static void same_bits_everywhere(void) {
+    Random random = {91};
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (int i = 0; i < 50000; i++) {
+        GiShader shader = shader_of(&cases[i % CASES]);
+        shader.exponent = random_real(&random, 0, 100);
+        shader.roughness = random_real(&random, 0.01, 2);
+        shader.index = random_real(&random, 0.5, 3);
+        GiVec v = gi_normalize(random_vec(&random, -1, 1)), l;
+        GiShading at = shading_of(&shader, cases[i % CASES].year, v);
+        mix(&hash, draw(&random, &at, &l));
+        mix_vec(&hash, l);
+        mix_vec(&hash, gi_bsdf_evaluate(&at, l));
+        GiArrival arrival = {.level = 1, .weight = 1};
+        GiScatter scatter;
+        shader.type = GLINT_SHADER_GLASS;
+        gi_bsdf_scatter(&at, &arrival, &scatter);
+        for (int j = 0; j < scatter.count; j++) {
+            mix_vec(&hash, scatter.branch[j].direction);
+            mix_vec(&hash, scatter.branch[j].factor);
+        }
+    }
+    CHECK_INT(hash >> 1, 3845306365684308947);
+}
+
+const GiTest tests_sampling[] = {TEST(integrals), TEST(what_is_lost), TEST(directions), TEST(lobes),
+    TEST(same_bits_everywhere), TEST_END};
