@@ -24,6 +24,20 @@ GiVec gi_bsdf_evaluate(const GiShading *at, GiVec l) {
     return gi_vec(0, 0, 0);
 }
 
+double gi_bsdf_radiometric(const GiShading *at) {
+    switch (at->shader->type) {
+    case GLINT_SHADER_LAMBERTIAN:
+    case GLINT_SHADER_PHONG: return at->rules->diffuse_over_pi ? 1 : GI_INVERSE_PI;
+    case GLINT_SHADER_COOK_TORRANCE: return GI_INVERSE_PI;
+    case GLINT_SHADER_BECKMANN:
+    case GLINT_SHADER_GGX:
+    case GLINT_SHADER_RGB_NORMALS:
+    case GLINT_SHADER_GLAZED:
+    case GLINT_SHADER_GLASS: break;
+    }
+    return 1;
+}
+
 double gi_bsdf_density(const GiShading *at, GiVec l) {
     if (turned_away(at)) return 0;
     switch (at->shader->type) {

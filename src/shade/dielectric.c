@@ -22,7 +22,7 @@ double gi_dielectric_schlick(double c, double m) {
 GiVec gi_dielectric_mirror(GiVec n, GiVec v, double c) { return gi_sub(gi_scale(n, 2 * c), v); }
 
 bool gi_dielectric_cosine_behind(double c, double e, double *ct) {
-    double square = 1 - e * e * (1 - c * c);
+    double square = 1 - e * e * gi_shade_positive(1 - c * c);
     if (!(square >= 0)) return false;
     *ct = sqrt(square);
     return true;

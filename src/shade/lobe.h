@@ -75,7 +75,7 @@ static inline double gi_lobe_cosine_density(double nl) {
 
 static inline bool gi_lobe_half_draw(GiVec v, GiVec h, GiVec *l) {
     *l = gi_normalize(gi_lobe_mirror(v, h));
-    return gi_dot(v, h) > 0;
+    return gi_dot(v, h) > GI_LEAST_COSINE;
 }
 
 static inline double gi_lobe_half_density(double density_of_h, double vh) {

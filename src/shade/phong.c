@@ -10,8 +10,11 @@ GiVec gi_phong_evaluate(const GiShading *at, GiVec l) {
     return gi_shade_phong(&shader, at->rules, at->normal, at->toward_viewer, l);
 }
 
-/* That of the lobe; a negative exponent has no density and is drawn as 0 is. */
-static double exponent_of(const GiShading *at) { return gi_shade_positive(at->shader->exponent); }
+/* That of the lobe: a negative exponent has no density and is drawn as 0 is; a huge one, whose
+ * highlight is a point, as one whose density is a number. */
+static double exponent_of(const GiShading *at) {
+    return fmin(gi_shade_positive(at->shader->exponent), 1e18);
+}
 
 /* Seen from above, the highlight sends back 8 pi ks / (e + 2), the cosine pi kd. */
 static double share_of_cosine(const GiShading *at) {
