@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The shaders against their formulas in docs/scene-format.md, written out here once more in long
  * double, and against physics: reciprocity, energy, and nothing but numbers at grazing angles. */
+#include "render/stage.h"
 #include "shadings.h"
 #include "test.h"
 
@@ -190,18 +191,68 @@ static void formulas(void) {
     }
 }
 
-/* The hot path has the formulas of Lambert and Phong inline. */
-static void hot_path_agrees(void) {
-    Random random = {22};
-    for (int i = 0; i < 50000; i++) {
-        GiShader shader = shading_random_shader(&random, local_types[i % 2]);
-        GlintDialect year = (GlintDialect)(SHADING_FIRST_YEAR + i % 10);
-        GiVec l = shading_direction(&random);
-        GiShading at = shading_of(&shader, year, shading_direction(&random));
-        at.normal = shading_direction(&random);
-        GiVec a = gi_bsdf_evaluate(&at, l);
-        GiVec b = gi_shade_reflect(&shader, at.rules, at.normal, at.toward_viewer, l);
-        CHECK(memcmp(&a, &b, sizeof a) == 0);
+/* The kernels have the formulas of Lambert and Phong once more: what they say of many points is what
+ * gi_bsdf_evaluate says of each, to the bit. */
+typedef struct Shone {
+    GiPoints points;
+    GiLit lit;
+} Shone;
+
+static void check_point(const Shone *shone, const GiPointLight *light, const GiShading *seen,
+    int i, double away, int *next) {
+    const GiPoints *p = &shone->points;
+    const GiLit *lit = &shone->lit;
+    GiShading at = *seen;
+    at.normal = gi_vec(p->nx[i], p->ny[i], p->nz[i]);
+    at.toward_viewer = gi_vec(p->vx[i], p->vy[i], p->vz[i]);
+    GiVec d = gi_sub(light->position, gi_vec(p->px[i], p->py[i], p->pz[i]));
+    double square = gi_dot(d, d), inverse = 1 / sqrt(square);
+    GiVec e = light->falls ? gi_scale(light->intensity, 1 / square) : light->intensity;
+    GiVec adds = gi_multiply(e, gi_bsdf_evaluate(&at, gi_scale(d, inverse)));
+    if (!(square > 0) || gi_vec_is_zero(adds)) return;
+    int k = (*next)++;
+    CHECK(k < lit->count && lit->point[k] == (uint32_t)i);
+    const double got[4] = {lit->red[k], lit->green[k], lit->blue[k], lit->t_min[k]};
+    const double due[4] = {
+        adds.x, adds.y, adds.z, (away > 0 ? away : p->error[i]) * inverse};
+    CHECK(memcmp(got, due, sizeof got) == 0);
+}
+
+static void check_kernel(Shone *shone, Random *random, const GiKernel *kernel) {
+    GiShader shader = shading_random_shader(random, local_types[random_below(random, 2)]);
+    if (shader.type == GLINT_SHADER_PHONG) shader.exponent = random_below(random, 1025);
+    GlintDialect year = (GlintDialect)(SHADING_FIRST_YEAR + random_below(random, 10));
+    GiShading at = shading_of(&shader, year, gi_vec(0, 0, 1));
+    GiGloss gloss;
+    CHECK(gi_lights_gloss(at.rules, &shader, &gloss));
+    const GiPointLight light = {
+        random_vec(random, -1, 1), random_vec(random, 0, 2), random_below(random, 2) != 0};
+    enum { COUNT = 100 };
+    GiPoints *p = &shone->points;
+    for (int i = 0; i < COUNT; i++) {
+        GiVec place = random_below(random, 20) ? random_vec(random, -2, 2) : light.position;
+        GiVec n = shading_direction(random), v = shading_direction(random);
+        /* Viewer and light on opposite sides: no half vector. */
+        if (random_below(random, 10) == 0) v = gi_normalize(gi_sub(place, light.position));
+        p->px[i] = place.x, p->py[i] = place.y, p->pz[i] = place.z;
+        p->nx[i] = n.x, p->ny[i] = n.y, p->nz[i] = n.z;
+        p->vx[i] = v.x, p->vy[i] = v.y, p->vz[i] = v.z;
+        p->error[i] = random_real(random, 0, 1e-9);
+    }
+    int begin = random_below(random, 20), end = begin + random_below(random, COUNT - begin);
+    shone->lit.count = 0;
+    kernel->light(p, begin, end, &light, &gloss, &shone->lit);
+    int next = 0;
+    for (int i = begin; i < end; i++) check_point(shone, &light, &at, i, gloss.away, &next);
+    CHECK_INT(next, shone->lit.count);
+}
+
+static void kernels_agree(void) {
+    static Shone shone;
+    const GiKernel *kernel;
+    for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
+        Random random = {22};
+        for (int i = 0; i < 1000; i++) check_kernel(&shone, &random, kernel);
     }
 }
 
@@ -373,6 +424,6 @@ static void always_finite(void) {
     }
 }
 
-const GiTest tests_bsdf[] = {TEST(rules_of_years), TEST(formulas), TEST(hot_path_agrees),
+const GiTest tests_bsdf[] = {TEST(rules_of_years), TEST(formulas), TEST(kernels_agree),
     TEST(types_without_light), TEST(reciprocity), TEST(furnace_lambertian),
     TEST(furnace_microfacets), TEST(furnace_of_history), TEST(always_finite), TEST_END};

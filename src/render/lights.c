@@ -4,8 +4,7 @@
 
 /* ---------------------------------------------------------------- point lights */
 
-/* Whether the kernels know the shader's formula; *gloss is then made ready for them. */
-static bool gloss_of(const GiRules *rules, const GiShader *shader, GiGloss *gloss) {
+bool gi_lights_gloss(const GiRules *rules, const GiShader *shader, GiGloss *gloss) {
     bool phong = shader->type == GLINT_SHADER_PHONG;
     if (!phong && shader->type != GLINT_SHADER_LAMBERTIAN) return false;
     if (shader->texture != GI_NONE) return false;
@@ -114,7 +113,7 @@ static void add_point_light(const GiStage *stage, const GiLight *light) {
     for (int i = 0; i < scratch->segment_count; i++) {
         const GiSegment *segment = &scratch->segments[i];
         GiGloss gloss;
-        if (gloss_of(world->rules, &world->scene->shaders.data[segment->shader], &gloss)) {
+        if (gi_lights_gloss(world->rules, &world->scene->shaders.data[segment->shader], &gloss)) {
             world->kernel->light(
                 &scratch->points, segment->begin, segment->end, &point, &gloss, &scratch->lit);
         } else {

@@ -128,6 +128,9 @@ bool gi_surface_probes(const GiWorld *world, const GiShader *shader);
 /* ---- lights.c: adds the light of all lights to all points, and forgets the points. */
 void gi_lights_add(const GiStage *stage);
 
+/* Whether the kernels know the shader's formula; *gloss is then made ready for them. */
+bool gi_lights_gloss(const GiRules *rules, const GiShader *shader, GiGloss *gloss);
+
 /* ---- flight.c */
 
 /* Notes a ray to be followed. */
