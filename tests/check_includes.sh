@@ -15,10 +15,11 @@ port:
 sample:
 sched: port
 shape:
+mesh: shape sched port
 image: sched port
 light: image port
 texture: port
-scene: shape light texture port
+scene: mesh shape light texture port
 accel: shape sched port
 kernel: accel shape port
 shade: scene shape light texture
