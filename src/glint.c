@@ -501,10 +501,15 @@ GlintStatus glint_render(
         area.crop_height > area.height - area.y) {
         return ARGUMENT(error, "the crop reaches outside of the picture");
     }
+    if (desc->light < -1 || desc->light > (int)scene->model.lights.count) {
+        return ARGUMENT(error, "there is no such light");
+    }
     double start = gi_machine_seconds();
     GiRenderCounts counts = {0};
+    const GiRenderTarget target = {
+        pixels, desc->depth, desc->normal, desc->albedo, desc->surface, desc->light};
     GlintStatus status =
-        gi_render(&scene->world, scene->pool, &area, desc->monitor, pixels, &counts);
+        gi_render(&scene->world, scene->pool, &area, desc->monitor, &target, &counts);
     scene->stats.trace_seconds = gi_machine_seconds() - start;
     scene->stats.camera_rays = counts.camera_rays;
     scene->stats.shadow_rays = counts.shadow_rays;

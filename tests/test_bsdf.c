@@ -191,15 +191,15 @@ static void formulas(void) {
     }
 }
 
-/* The kernels have the formulas of Lambert and Phong once more: what they say of many points is what
- * gi_bsdf_evaluate says of each, to the bit. */
+/* The kernels have the formulas of Lambert and Phong once more: what they say of many points is
+ * what gi_bsdf_evaluate says of each, to the bit. */
 typedef struct Shone {
     GiPoints points;
     GiLit lit;
 } Shone;
 
-static void check_point(const Shone *shone, const GiPointLight *light, const GiShading *seen,
-    int i, double away, int *next) {
+static void check_point(const Shone *shone, const GiPointLight *light, const GiShading *seen, int i,
+    double away, int *next) {
     const GiPoints *p = &shone->points;
     const GiLit *lit = &shone->lit;
     GiShading at = *seen;
@@ -213,8 +213,7 @@ static void check_point(const Shone *shone, const GiPointLight *light, const GiS
     int k = (*next)++;
     CHECK(k < lit->count && lit->point[k] == (uint32_t)i);
     const double got[4] = {lit->red[k], lit->green[k], lit->blue[k], lit->t_min[k]};
-    const double due[4] = {
-        adds.x, adds.y, adds.z, (away > 0 ? away : p->error[i]) * inverse};
+    const double due[4] = {adds.x, adds.y, adds.z, (away > 0 ? away : p->error[i]) * inverse};
     CHECK(memcmp(got, due, sizeof got) == 0);
 }
 

@@ -2,8 +2,8 @@
  * The frame, and points evenly by area. */
 #include "light/rectangle.h"
 
-bool gi_rectangle_init(
-    GiLightRectangle *rectangle, GiVec center, GiVec normal, GiVec up, double width, double height) {
+bool gi_rectangle_init(GiLightRectangle *rectangle, GiVec center, GiVec normal, GiVec up,
+    double width, double height) {
     GiVec front = gi_normalize(normal);
     GiVec across = gi_normalize(gi_cross(gi_normalize(up), front));
     if (gi_vec_is_zero(across)) return false;

@@ -45,8 +45,7 @@ static void light_segment(const GiStage *stage, const GiLight *light, const GiSe
         double inverse = 1 / sqrt(square);
         GiVec l = gi_scale(d, inverse);
         GiShading at = gi_surface_shading(stage, i);
-        GiVec adds = gi_multiply(gi_shade_light(light, rules, square),
-            gi_bsdf_evaluate(&at, l));
+        GiVec adds = gi_multiply(gi_shade_light(light, rules, square), gi_bsdf_evaluate(&at, l));
         if (gi_vec_is_zero(adds)) continue;
         double away = rules->shadow_distance > 0 ? rules->shadow_distance : points->error[i];
         int k = lit->count++;
@@ -267,8 +266,8 @@ static void add_light(const GiStage *stage, size_t index) {
 void gi_lights_add(const GiStage *stage) {
     const GiScene *scene = stage->world->scene;
     for (size_t i = 0; i < scene->lights.count && !gi_stage_stopped(stage); i++) {
-        add_light(stage, i);
+        if (gi_stage_draws(stage, (int)i)) add_light(stage, i);
     }
-    if (stage->world->sky_lights) add_sky(stage);
+    if (stage->world->sky_lights && gi_stage_draws(stage, -1)) add_sky(stage);
     stage->scratch->point_count = stage->scratch->segment_count = 0;
 }

@@ -28,6 +28,14 @@ typedef struct GiSpot {
     uint32_t level;               /* of the ray that met it */
 } GiSpot;
 
+/* What the camera rays of a pixel met, where it is asked for: sums over samples. */
+typedef struct GiSeen {
+    GiVec normal, albedo;
+    double depth;
+    int count;
+    uint32_t surface; /* of the first sample */
+} GiSeen;
+
 /* Points begin to end - 1 have one shader. */
 typedef struct GiSegment {
     uint32_t shader;
@@ -63,6 +71,7 @@ struct GiTileScratch {
     double across[GI_TILE_STRIDE], up[GI_TILE_STRIDE]; /* window coordinates of columns, rows */
     GiVec color[GI_TILE_PIXELS];                       /* of the sample being drawn */
     GiVec sum[GI_TILE_PIXELS];                         /* of the samples before */
+    GiSeen *seen;                                      /* GI_TILE_PIXELS, or null */
     GiFlight chunk[GI_FLIGHT_CHUNK];
     GI_ARRAY(GiFlight) flights;
     GI_ARRAY(GiFlightRange) ranges;
@@ -79,6 +88,7 @@ typedef struct GiStage {
     const GiTileControl *control;
     GiTileScratch *scratch;
     GiRenderCounts *counts;
+    int light;             /* as in GlintRenderDesc */
     uint32_t x, y, sample; /* the tile's corner in the whole picture; number of the sample */
 } GiStage;
 
@@ -109,6 +119,11 @@ static inline uint32_t gi_stage_dimension(uint32_t level, uint32_t purpose) {
 static inline double gi_stage_share(double density, double other) {
     double a = density * density, b = other * other;
     return a > 0 ? a / (a + b) : 0;
+}
+
+/* Whether light of that index (-1: of no light) is drawn. */
+static inline bool gi_stage_draws(const GiStage *stage, int light) {
+    return stage->light == 0 || stage->light == (light < 0 ? -1 : light + 1);
 }
 
 /* ---- surface.c */

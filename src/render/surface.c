@@ -76,6 +76,11 @@ static double share_of_flight(const GiFlight *flight, double light_density) {
     return flight->density > 0 ? gi_stage_share(flight->density, light_density) : 1;
 }
 
+/* What a surface shows without any light. */
+static inline GiVec shine_of(const GiStage *stage, const GiShader *shader, GiVec normal) {
+    return gi_stage_draws(stage, -1) ? gi_shade_emit(shader, normal) : gi_vec(0, 0, 0);
+}
+
 /* A visible rectangle light shines from its front and is black behind. */
 static GiVec rectangle_emission(
     const GiStage *stage, const GiFlight *flight, const Met *met, uint32_t light_index) {
@@ -83,7 +88,7 @@ static GiVec rectangle_emission(
     const GiLightRectangle *rectangle = &world->rectangles.data[light_index];
     GiVec offset = gi_scale(met->direction, met->t);
     double density = gi_rectangle_density(rectangle, offset);
-    if (!(density > 0)) return gi_vec(0, 0, 0);
+    if (!(density > 0) || !gi_stage_draws(stage, (int)light_index)) return gi_vec(0, 0, 0);
     GiVec intensity = world->scene->lights.data[light_index].intensity;
     return flight == NULL ? intensity : gi_scale(intensity, share_of_flight(flight, density));
 }
@@ -92,6 +97,7 @@ static GiVec rectangle_emission(
 static GiVec background(const GiStage *stage, const GiFlight *flight, GiVec direction) {
     const GiWorld *world = stage->world;
     const GiEnvironment *environment = &world->scene->environment;
+    if (!gi_stage_draws(stage, -1)) return gi_vec(0, 0, 0);
     if (environment->face == 0) return world->scene->back_color;
     GiVec radiance = gi_environment_radiance(environment, direction);
     if (flight == NULL || !world->sky_lights) return radiance;
@@ -180,13 +186,14 @@ static void add_path(
     const GiStage *stage, const Met *met, const GiSurfacePoint *at, const GiScatter *scatter) {
     double parts[GI_BRANCH_LIMIT + 1], sum = 0;
     bool last = met->arrival.level >= stage->world->scene->max_depth;
-    for (int i = 0; i < scatter->count; i++) sum += parts[i] = brightness(scatter->branch[i].factor);
+    for (int i = 0; i < scatter->count; i++)
+        sum += parts[i] = brightness(scatter->branch[i].factor);
     parts[scatter->count] = scatter->local.shader != NULL ? brightness(scatter->local_factor) : 0;
     sum += parts[scatter->count];
     if (!(sum > 0)) return;
     GiSampler sampler = gi_stage_sampler(stage, met->pixel);
-    double at_part = sum * gi_sample_1d(&sampler, gi_stage_dimension((uint32_t)met->arrival.level,
-                                                      GI_PURPOSE_CHOICE));
+    double at_part = sum * gi_sample_1d(&sampler,
+                               gi_stage_dimension((uint32_t)met->arrival.level, GI_PURPOSE_CHOICE));
     int chosen = 0;
     while (chosen < scatter->count && at_part >= parts[chosen]) at_part -= parts[chosen++];
     double chance = parts[chosen] / sum;
@@ -248,7 +255,7 @@ static void meet_layers(const GiStage *stage, const Met *met, const GiSurfacePoi
     scratch->factors[scratch->point_count] = gi_multiply(met->factor, scatter.local_factor);
     scratch->diffuse[scratch->point_count] = local->diffuse;
     if (local->shader != shader) {
-        GiVec shine = gi_shade_emit(local->shader, at->normal);
+        GiVec shine = shine_of(stage, local->shader, at->normal);
         GiVec *color = &scratch->color[met->pixel];
         *color = gi_add(*color, gi_multiply(scratch->factors[scratch->point_count], shine));
     }
@@ -269,6 +276,23 @@ static inline GiSurfacePoint point_of(const GiWorld *world, const Met *met) {
         met->t, world->rules->cone_geometric);
 }
 
+/* Keeps what a camera ray met, for pictures of it. */
+static void note_seen(
+    const GiStage *stage, const Met *met, const GiSurfacePoint *at, const GiShader *shader) {
+    const GiWorld *world = stage->world;
+    GiSeen *seen = &stage->scratch->seen[met->pixel];
+    GiVec albedo = shader->texture == GI_NONE
+                       ? shader->diffuse
+                       : texture_color(world, met, at->point, shader->texture);
+    seen->normal = gi_add(seen->normal, at->normal);
+    seen->albedo = gi_add(seen->albedo, albedo);
+    seen->depth += met->t;
+    seen->count++;
+    if (stage->sample == 0) {
+        seen->surface = gi_shape_info(&world->shapes, met->shape, met->instance)->order + 1;
+    }
+}
+
 /* A camera ray's: its color is set, not added to. */
 static inline void meet_surface(
     const GiStage *stage, const Met *met, uint32_t shader_index, bool plain) {
@@ -277,7 +301,8 @@ static inline void meet_surface(
     const GiShader *shader = &world->scene->shaders.data[shader_index];
     GiSurfacePoint at = point_of(world, met);
     GiSpot spot = {met->pixel, shader_index, skip_of(world, met->shape), met->instance, 1};
-    scratch->color[met->pixel] = gi_shade_emit(shader, at.normal);
+    scratch->color[met->pixel] = shine_of(stage, shader, at.normal);
+    if (scratch->seen != NULL) note_seen(stage, met, &at, shader);
     if (!plain) {
         meet_layers(stage, met, &at, shader, spot);
         return;
@@ -353,9 +378,8 @@ void gi_surface_flight(const GiStage *stage, const GiFlight *flight, const GiTra
     uint32_t index = gi_shape_info(&world->shapes, hit->shape, hit->instance)->shader;
     const GiShader *shader = &world->scene->shaders.data[index];
     GiSurfacePoint at = point_of(world, &met);
-    GiVec shine = gi_shade_emit(shader, at.normal);
+    GiVec shine = shine_of(stage, shader, at.normal);
     *color = gi_add(*color, gi_multiply(flight->factor, shine));
-    GiSpot spot = {
-        flight->pixel, index, skip_of(world, hit->shape), hit->instance, flight->level};
+    GiSpot spot = {flight->pixel, index, skip_of(world, hit->shape), hit->instance, flight->level};
     meet_layers(stage, &met, &at, shader, spot);
 }

@@ -10,22 +10,27 @@ enum {
     STRIDE = GI_TILE_STRIDE
 };
 
-GiTileScratch *gi_tile_scratch_create(const GiWorld *world) {
+#define SEEN_SIZE (GI_TILE_PIXELS * sizeof(GiSeen))
+
+GiTileScratch *gi_tile_scratch_create(const GiWorld *world, const GiRenderTarget *target) {
     GiMemory *memory = world->scene->memory;
     size_t shader_count = world->scene->shaders.count;
     GiTileScratch *scratch = gi_memory_allocate_lines(memory, 1, sizeof *scratch);
     if (scratch == NULL) return NULL;
-    scratch->head = gi_memory_allocate(memory, shader_count * sizeof *scratch->head);
-    if (scratch->head == NULL) {
-        gi_memory_free_lines(memory, scratch, 1, sizeof *scratch);
-        return NULL;
-    }
-    for (size_t i = 0; i < shader_count; i++) scratch->head[i] = GI_NONE;
+    bool sees = target->depth != NULL || target->normal != NULL || target->albedo != NULL ||
+                target->surface != NULL;
+    memset(&scratch->flights, 0, sizeof scratch->flights);
+    memset(&scratch->ranges, 0, sizeof scratch->ranges);
     scratch->shader_count = shader_count;
     scratch->point_count = scratch->segment_count = 0;
     scratch->weighted = scratch->out_of_memory = false;
-    memset(&scratch->flights, 0, sizeof scratch->flights);
-    memset(&scratch->ranges, 0, sizeof scratch->ranges);
+    scratch->head = gi_memory_allocate(memory, shader_count * sizeof *scratch->head);
+    scratch->seen = sees ? gi_memory_allocate(memory, SEEN_SIZE) : NULL;
+    if (scratch->head == NULL || (sees && scratch->seen == NULL)) {
+        gi_tile_scratch_destroy(memory, scratch);
+        return NULL;
+    }
+    for (size_t i = 0; i < shader_count; i++) scratch->head[i] = GI_NONE;
     world->kernel->regroup_init(&scratch->regroup);
     return scratch;
 }
@@ -35,6 +40,7 @@ void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch) {
     gi_array_free(memory, &scratch->flights);
     gi_array_free(memory, &scratch->ranges);
     gi_memory_free(memory, scratch->head, scratch->shader_count * sizeof *scratch->head);
+    gi_memory_free(memory, scratch->seen, SEEN_SIZE);
     gi_memory_free_lines(memory, scratch, 1, sizeof *scratch);
 }
 
@@ -142,38 +148,81 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Ex
     gi_flight_follow(stage);
 }
 
+static void store_color(
+    const GiTileScratch *scratch, int row, int width, int samples, double exposure, float *to) {
+    for (int i = row * STRIDE; i < row * STRIDE + width; i++) {
+        *to++ = (float)(scratch->sum[i].x / samples * exposure);
+        *to++ = (float)(scratch->sum[i].y / samples * exposure);
+        *to++ = (float)(scratch->sum[i].z / samples * exposure);
+    }
+}
+
+static void store_vec(float *to, GiVec v) {
+    to[0] = (float)v.x;
+    to[1] = (float)v.y;
+    to[2] = (float)v.z;
+}
+
+static void store_seen(
+    const GiSeen *seen, int width, int samples, size_t at, const GiRenderTarget *target) {
+    double part = 1.0 / samples;
+    for (int i = 0; i < width; i++, seen++, at++) {
+        double depth = seen->count > 0 ? seen->depth / seen->count : 0;
+        if (target->depth != NULL) target->depth[at] = (float)depth;
+        if (target->normal != NULL)
+            store_vec(target->normal + 3 * at, gi_scale(seen->normal, part));
+        if (target->albedo != NULL)
+            store_vec(target->albedo + 3 * at, gi_scale(seen->albedo, part));
+        if (target->surface != NULL) target->surface[at] = seen->surface;
+    }
+}
+
+/* The samples of a pixel are a grid of so many rows and columns. */
+static int grid_of(const GiScene *scene) {
+    int n = (int)floor(sqrt((double)scene->samples) + 0.5);
+    return n > 1 ? n : 1;
+}
+
+static void clear(const Extent *extent, GiTileScratch *scratch) {
+    for (int row = 0; row < extent->height; row++) {
+        for (int i = row * STRIDE; i < row * STRIDE + extent->width; i++) {
+            scratch->sum[i] = gi_vec(0, 0, 0);
+            if (scratch->seen != NULL) memset(&scratch->seen[i], 0, sizeof scratch->seen[i]);
+        }
+    }
+}
+
+static void add_sample(const Extent *extent, GiTileScratch *scratch) {
+    for (int row = 0; row < extent->height; row++) {
+        for (int i = row * STRIDE; i < row * STRIDE + extent->width; i++) {
+            scratch->sum[i] = gi_add(scratch->sum[i], scratch->color[i]);
+        }
+    }
+}
+
 void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
-    float *pixels, GiTileScratch *scratch, GiRenderCounts *counts, const GiTileControl *control) {
+    const GiRenderTarget *target, GiTileScratch *scratch, GiRenderCounts *counts,
+    const GiTileControl *control) {
     Extent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
     if (extent.width > side) extent.width = side;
     if (extent.height > side) extent.height = side;
-    GiStage stage = {world, control, scratch, counts, (uint32_t)extent.x, (uint32_t)extent.y, 0};
+    GiStage stage = {
+        world, control, scratch, counts, target->light, (uint32_t)extent.x, (uint32_t)extent.y, 0};
     scratch->bundle.stop = ask;
     scratch->bundle.stop_context = control;
-    const GiScene *scene = world->scene;
-    int n = (int)floor(sqrt((double)scene->samples) + 0.5);
-    if (n < 1) n = 1;
-    for (int row = 0; row < extent.height; row++) {
-        for (int i = 0; i < extent.width; i++) scratch->sum[row * STRIDE + i] = gi_vec(0, 0, 0);
-    }
+    int n = grid_of(world->scene);
+    clear(&extent, scratch);
     for (int sample = 0; sample < n * n; sample++) {
         stage.sample = (uint32_t)sample;
         draw_sample(&stage, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n);
         if (stopped(control)) return;
-        for (int row = 0; row < extent.height; row++) {
-            for (int i = row * STRIDE; i < row * STRIDE + extent.width; i++) {
-                scratch->sum[i] = gi_add(scratch->sum[i], scratch->color[i]);
-            }
-        }
+        add_sample(&extent, scratch);
     }
-    double exposure = scene->exposure > 0 ? scene->exposure : 1;
+    double exposure = world->scene->exposure > 0 ? world->scene->exposure : 1;
     for (int row = 0; row < extent.height; row++) {
-        float *to = pixels + 3 * ((size_t)(y + row) * (size_t)area->crop_width + (size_t)x);
-        for (int column = 0; column < extent.width; column++) {
-            GiVec sum = scratch->sum[row * STRIDE + column];
-            *to++ = (float)(sum.x / (n * n) * exposure);
-            *to++ = (float)(sum.y / (n * n) * exposure);
-            *to++ = (float)(sum.z / (n * n) * exposure);
-        }
+        size_t at = (size_t)(y + row) * (size_t)area->crop_width + (size_t)x;
+        store_color(scratch, row, extent.width, n * n, exposure, target->color + 3 * at);
+        if (scratch->seen == NULL) continue;
+        store_seen(scratch->seen + row * STRIDE, extent.width, n * n, at, target);
     }
 }

@@ -75,6 +75,7 @@ double gi_bsdf_sample(const GiShading *at, const double u[3], GiVec *l) {
 }
 
 double gi_bsdf_radiance_factor(const GiShading *at) {
-    bool over_pi = at->shader->type == GLINT_SHADER_BECKMANN || at->shader->type == GLINT_SHADER_GGX;
+    bool over_pi =
+        at->shader->type == GLINT_SHADER_BECKMANN || at->shader->type == GLINT_SHADER_GGX;
     return at->rules->radiance_over_pi && !over_pi ? GI_INVERSE_PI : 1;
 }
