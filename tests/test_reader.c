@@ -113,9 +113,12 @@ static void tables(void) {
         CHECK(e->help != NULL && e->help[0] != '\0');
         CHECK((e->kind == GI_KIND_CHOICE) == (e->choices != NULL));
         CHECK(e - gi_elements < GI_ELEMENT_LIMIT);
-        for (uint32_t bit = 1; bit <= e->contexts; bit <<= 1) {
-            if ((e->contexts & bit) != 0) CHECK(gi_element_find(&index, e->name, bit) == e);
+        for (int bit = 0; bit < 64; bit++) {
+            GiContexts context = e->contexts & GI_CONTEXT(bit);
+            if (context != 0) CHECK(gi_element_find(&index, e->name, context) == e);
         }
+        CHECK(e->type == NULL || gi_type_find(e->type, e->kind) != NULL);
+        CHECK(!e->required || e->default_text == NULL);
     }
     CHECK(gi_element_find(&index, "MINPT", GI_IN_BOX) != NULL);
     CHECK(gi_element_find(&index, "minPt", GI_IN_SPHERE) == NULL);
@@ -123,6 +126,7 @@ static void tables(void) {
         CHECK(gi_type_find(t->name, t->kind) == t);
         CHECK((gi_kind_contexts(t->kind) & t->context) == t->context);
     }
+    CHECK(GI_SLOT_COUNT <= 64);
 }
 
 static void suggestions(void) {
