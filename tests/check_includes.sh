@@ -14,8 +14,9 @@ math:
 port:
 sched: port
 shape:
+mesh: shape sched port
 image: sched port
-scene: shape port
+scene: mesh shape port
 accel: shape sched port
 kernel: accel shape port
 shade: scene shape
