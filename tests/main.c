@@ -19,6 +19,7 @@
     X(math) \
     X(elementary) \
     X(sample) \
+    X(mesh) \
     X(reader) \
     X(malformed) \
     X(hit) \

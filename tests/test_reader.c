@@ -138,9 +138,12 @@ static void tables(void) {
         CHECK(e->help != NULL && e->help[0] != '\0');
         CHECK((e->kind == GI_KIND_CHOICE) == (e->choices != NULL));
         CHECK(e - gi_elements < GI_ELEMENT_LIMIT);
-        for (uint32_t bit = 1; bit <= e->contexts; bit <<= 1) {
-            if ((e->contexts & bit) != 0) CHECK(gi_element_find(&index, e->name, bit) == e);
+        for (int bit = 0; bit < 64; bit++) {
+            GiContexts context = e->contexts & GI_CONTEXT(bit);
+            if (context != 0) CHECK(gi_element_find(&index, e->name, context) == e);
         }
+        CHECK(e->type == NULL || gi_type_find(e->type, e->kind) != NULL);
+        CHECK(!e->required || e->default_text == NULL);
     }
     CHECK(gi_element_find(&index, "MINPT", GI_IN_BOX) != NULL);
     CHECK(gi_element_find(&index, "minPt", GI_IN_SPHERE) == NULL);
@@ -148,13 +151,14 @@ static void tables(void) {
         CHECK(gi_type_find(t->name, t->kind) == t);
         CHECK((gi_kind_contexts(t->kind) & t->context) == t->context);
     }
+    CHECK(GI_SLOT_COUNT <= 64);
 }
 
 /* Guesses, right and wrong ones, never change what is found. */
 static void guesses(void) {
     static const struct {
         const char *name;
-        uint32_t contexts;
+        uint64_t contexts;
     } file[] = {{"shader", GI_IN_SCENE}, {"color", GI_IN_PHONG}, {"light", GI_IN_SCENE},
         {"color", GI_IN_POINT_LIGHT}, {"surface", GI_IN_SCENE}, {"Shader", GI_IN_SPHERE},
         {"radius", GI_IN_SPHERE}, {"radiu", GI_IN_SPHERE}, {"radius", GI_IN_BOX},
@@ -164,7 +168,7 @@ static void guesses(void) {
     gi_element_index_init(&index);
     for (size_t i = 0; i < 3 * sizeof file / sizeof file[0]; i++) {
         const char *name = file[i % (sizeof file / sizeof file[0])].name;
-        uint32_t contexts = file[i % (sizeof file / sizeof file[0])].contexts;
+        uint64_t contexts = file[i % (sizeof file / sizeof file[0])].contexts;
         const GiElement *found = gi_element_find(&index, name, contexts);
         CHECK(gi_element_guess(&index, name, contexts) == found);
     }

@@ -245,6 +245,12 @@ typedef enum GlintShaderType {
     GLINT_SHADER_COOK_TORRANCE
 } GlintShaderType;
 
+/* What a texture shows beyond its picture. */
+typedef enum GlintWrap {
+    GLINT_WRAP_REPEAT, /* the picture again */
+    GLINT_WRAP_CLAMP   /* its edge */
+} GlintWrap;
+
 typedef struct GlintShaderDesc {
     GlintShaderType type;
     double diffuse_color[3];  /* 1 1 1 */

@@ -49,7 +49,7 @@ GlintStatus gi_mesh_input_status(GiMeshInput *input) {
     if (stop != GLINT_OK) return gi_mesh_fault(input->fault, stop, "%s", glint_status_text(stop));
     if (first == NULL) return GLINT_OK;
     gi_mesh_fault(input->fault, GLINT_ERROR_SCENE, "%s", first->message);
-    input->fault->line = line_of(input, first->at);
+    if (input->has_lines) input->fault->line = line_of(input, first->at);
     return GLINT_ERROR_SCENE;
 }
 
@@ -64,7 +64,7 @@ typedef struct Run {
     _Atomic bool failed;
 } Run;
 
-static bool is_cancelled(GiMeshInput *input) {
+bool gi_mesh_is_cancelled(GiMeshInput *input) {
     const GlintMonitor *monitor = input->monitor;
     if (monitor == NULL || monitor->cancelled == NULL || !monitor->cancelled(monitor->user)) {
         return false;
@@ -78,7 +78,7 @@ static void run_chunks(void *context, size_t begin, size_t end, int worker) {
     (void)begin, (void)end;
     for (;;) {
         /* The caller's thread is worker 0, and the monitor is called on no other. */
-        if (worker == 0 && is_cancelled(run->input)) return;
+        if (worker == 0 && gi_mesh_is_cancelled(run->input)) return;
         if (atomic_load(&run->failed) || atomic_load(&run->input->stop) != GLINT_OK) return;
         size_t chunk = atomic_fetch_add(&run->next, 1);
         if (chunk >= run->count) return;

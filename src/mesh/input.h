@@ -26,6 +26,7 @@ typedef struct GiMeshInput {
     GiMeshFault *fault;
     GiMeshFinding *findings; /* one a worker */
     const GiFileBytes *file; /* that the text is of, or null */
+    bool has_lines;          /* false: lines mean nothing to the reader of a message */
     _Atomic int stop;        /* a GlintStatus; parsing ends soon unless it is OK */
 } GiMeshInput;
 
@@ -41,6 +42,9 @@ GlintStatus gi_mesh_fault(GiMeshFault *fault, GlintStatus status, const char *fo
 GlintStatus gi_mesh_input_status(GiMeshInput *input);
 
 /* ---------------------------------------------------------------- chunks */
+
+/* Asks the monitor; on the caller's thread only. */
+bool gi_mesh_is_cancelled(GiMeshInput *input);
 
 /* Calls function for the chunks 0 .. count - 1, on all workers, each claimed in turn; when it
  * returns false, no further chunks are begun. Those before it are completed, so that the first
@@ -110,3 +114,4 @@ uint32_t gi_mesh_end(
 
 GlintStatus gi_mesh_parse_msh(GiMeshInput *input, GiMeshStore *store, uint32_t *mesh);
 GlintStatus gi_mesh_parse_obj(GiMeshInput *input, GiMeshStore *store, uint32_t *mesh);
+GlintStatus gi_mesh_parse_ply(GiMeshInput *input, GiMeshStore *store, uint32_t *mesh);

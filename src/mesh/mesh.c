@@ -186,7 +186,7 @@ static GlintStatus parse(
     switch (format) {
     case GI_MESH_MSH: return gi_mesh_parse_msh(input, store, mesh);
     case GI_MESH_OBJ: return gi_mesh_parse_obj(input, store, mesh);
-    case GI_MESH_PLY: break;
+    case GI_MESH_PLY: return gi_mesh_parse_ply(input, store, mesh);
     case GI_MESH_FORMAT_COUNT: break;
     }
     return gi_mesh_fault(
@@ -201,6 +201,7 @@ static GlintStatus read_source(GiMeshStore *store, GiMemory *memory, const GiMes
         .chunk_size = source->chunk_size > 0 ? source->chunk_size : CHUNK_SIZE,
         .worker_count = 1,
         .monitor = source->monitor,
+        .has_lines = true,
         .fault = fault,
         .file = file};
     int thread_count = source->thread_count;

@@ -3,7 +3,6 @@
  * the attributes mean. What the elements amount to is decided in object.c. */
 #include "reader/state.h"
 
-#include "reader/later.h"
 #include "reader/suggest.h"
 
 #include <string.h>
@@ -109,7 +108,7 @@ static void pop_frame(GiReader *reader) {
 /* ---------------------------------------------------------------- unknown elements */
 
 static void place_words(const GiFrame *parent, char *buffer, size_t size) {
-    uint32_t contexts = parent->type != NULL ? parent->type->context : parent->contexts;
+    GiContexts contexts = parent->type != NULL ? parent->type->context : parent->contexts;
     gi_context_text(contexts, buffer, size);
 }
 
@@ -138,20 +137,14 @@ static const GiElement *report_element(
         return NULL;
     }
     place_words(parent, here, sizeof here);
-    const GiElement *elsewhere = gi_element_find(&reader->elements, tag, UINT32_MAX);
+    const GiElement *elsewhere = gi_element_find(&reader->elements, tag, GI_ANYWHERE);
     if (elsewhere == NULL && size == 5 && gi_edit_distance(tag, 5, "scene", 5, 0) == 0) {
         gi_report_add(
             report, place, length, "`scene` is the root element and cannot stand in %s", here);
         return NULL;
     }
-    const GiLater *later = gi_later_element(tag);
-    if (later != NULL) {
-        reader->evidence |= later->evidence;
-        gi_report_add(report, place, length, "`%s` is not supported yet", later->name);
-        return NULL;
-    }
     if (elsewhere != NULL) {
-        uint32_t contexts = 0;
+        GiContexts contexts = 0;
         for (const GiElement *e = gi_elements; e->name != NULL; e++) {
             if (strcmp(e->name, elsewhere->name) == 0) contexts |= e->contexts;
         }
@@ -178,7 +171,7 @@ static const GiElement *report_element(
         gi_suggestion_offer(&suggestion, e->name);
     }
     if (suggestion.best != NULL && strcmp(suggestion.best, "scene") != 0) {
-        const GiElement *near = gi_element_find(&reader->elements, suggestion.best, UINT32_MAX);
+        const GiElement *near = gi_element_find(&reader->elements, suggestion.best, GI_ANYWHERE);
         gi_context_text(near->contexts, there, sizeof there);
         gi_report_add(report, place, length,
             "unknown element `%s` in %s: `%s` is near, but belongs in %s", quote, here, near->name,
@@ -291,9 +284,11 @@ static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attrib
     const char *name = attributes->type;
     char list[240], quote[GI_QUOTE_SIZE];
     if (name == NULL) {
-        if (kind == GI_KIND_CAMERA) frame->type = gi_type_find("PerspectiveCamera", kind);
-        if (kind == GI_KIND_LIGHT) frame->type = gi_type_find("Light", kind);
-        if (frame->type != NULL) return;
+        const char *implied = frame->element->type;
+        if (implied != NULL) {
+            frame->type = gi_type_find(implied, kind);
+            return;
+        }
         if (frame->broken) return; /* by another attribute, which may have been meant for it */
         frame->broken = true;
         gi_type_list_text(kind, list, sizeof list);
@@ -316,13 +311,6 @@ static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attrib
     }
     int length;
     GiPlace place = gi_tree_attribute(reader, attributes->type_index, true, &length);
-    const GiLater *later = gi_later_type(name, kind);
-    if (later != NULL) {
-        reader->evidence |= later->evidence;
-        frame->skip = GI_SKIP_UNKNOWN;
-        gi_report_add(&reader->report, place, length, "`%s` is not supported yet", later->name);
-        return;
-    }
     const char *noun = strchr(gi_kind_text(kind), ' ') + 1;
     gi_quote(quote, name, strlen(name));
     gi_type_list_text(kind, list, sizeof list);
@@ -366,10 +354,7 @@ static void read_ref(GiReader *reader, GiFrame *frame, const Attributes *attribu
     frame->skip = GI_SKIP_IGNORED;
     if (named != NULL && !named->broken) {
         GiKind named_kind = (GiKind)named->kind;
-        /* A vector, a point and a colour are three numbers alike. */
-        bool same =
-            kind == named_kind || (gi_kind_count(kind) == 3 && gi_kind_count(named_kind) == 3);
-        if (same) {
+        if (gi_kind_fits(named_kind, kind)) {
             gi_object_refer(reader, frame, parent, named);
             return;
         }
@@ -480,11 +465,6 @@ void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **lis
         return;
     }
     if (element->kind != GI_KIND_SCENE) read_type(reader, frame, &attributes);
-    if (frame->skip == GI_SKIP_UNKNOWN) {
-        parent->broken = true;
-        name_skipped(reader, list);
-        return;
-    }
     frame->contexts = frame->type != NULL ? frame->type->context : gi_kind_contexts(element->kind);
     gi_object_begin(reader, frame);
 }
@@ -500,7 +480,9 @@ void XMLCALL gi_tree_end(void *user, const XML_Char *tag) {
         } else {
             GiVec value;
             if (!frame->broken && gi_value_finish(reader, frame, &value)) {
-                gi_object_set(reader, parent, frame->element, value, frame->place);
+                bool text = frame->element->kind == GI_KIND_STRING;
+                gi_object_set(reader, parent, frame->element, value,
+                    text ? gi_value_place(reader, frame) : frame->place);
                 gi_object_name_value(reader, frame, value);
             } else {
                 parent->broken = true;

@@ -249,6 +249,36 @@ static bool read_choice(GiReader *reader, const GiFrame *frame, GiVec *value) {
     return false;
 }
 
+/* The text without the white space round it. */
+static Token trim(const GiReader *reader) {
+    Token all = {0, reader->text_size};
+    while (all.begin < all.end && is_space(reader->text[all.begin])) all.begin++;
+    while (all.begin < all.end && is_space(reader->text[all.end - 1])) all.end--;
+    return all;
+}
+
+/* The value is the number of the text among the strings, and its length in characters. */
+static bool read_string(GiReader *reader, const GiFrame *frame, GiVec *value) {
+    Token all = trim(reader);
+    if (all.begin == all.end) {
+        const char *tag = reader->tags.data + frame->tag;
+        gi_report_add(&reader->report, frame->place, 1 + gi_text_length(tag, strlen(tag)),
+            "%s is empty: it is %s", frame->element->name, frame->element->help);
+        return false;
+    }
+    char text[GI_TEXT_LIMIT + 1];
+    size_t size = all.end - all.begin;
+    memcpy(text, reader->text + all.begin, size);
+    text[size] = '\0';
+    uint32_t number;
+    if (!gi_names_intern(&reader->strings, text, &number)) {
+        gi_reader_out_of_memory(reader);
+        return false;
+    }
+    *value = gi_vec(number, gi_text_length(text, size), 0);
+    return true;
+}
+
 /* ---------------------------------------------------------------- checks */
 
 static bool passes(GiCheck check, GiVec value) {
@@ -259,6 +289,8 @@ static bool passes(GiCheck check, GiVec value) {
     case GI_CHECK_LENGTH: return !gi_vec_is_zero(value);
     case GI_CHECK_NO_ZERO: return value.x != 0 && value.y != 0 && value.z != 0;
     case GI_CHECK_ANGLE: return value.x > 0 && value.x < 180;
+    case GI_CHECK_BIT: return value.x == 0 || value.x == 1;
+    case GI_CHECK_DEPTH: return value.x >= 1 && value.x <= GI_PATH_LIMIT;
     case GI_CHECK_IMAGE_SIZE: return gi_scene_check_image_size(value.x, value.y) == NULL;
     }
     return true;
@@ -292,6 +324,13 @@ bool gi_value_check(
             "%s must be an angle between 0 and 180 degrees, both excluded; found %g", name,
             value.x);
         break;
+    case GI_CHECK_BIT:
+        gi_report_add(report, place, length, "%s must be 0 or 1; found %.0f", name, value.x);
+        break;
+    case GI_CHECK_DEPTH:
+        gi_report_add(report, place, length, "%s must be from 1 to %d; found %.0f", name,
+            GI_PATH_LIMIT, value.x);
+        break;
     case GI_CHECK_IMAGE_SIZE:
         gi_report_add(report, place, length, "%s; found %.0f x %.0f",
             gi_scene_check_image_size(value.x, value.y), value.x, value.y);
@@ -303,6 +342,7 @@ bool gi_value_check(
 bool gi_value_finish(GiReader *reader, const GiFrame *frame, GiVec *value) {
     const GiElement *element = frame->element;
     if (element->kind == GI_KIND_CHOICE) return read_choice(reader, frame, value);
+    if (element->kind == GI_KIND_STRING) return read_string(reader, frame, value);
     if (!reader->value_ready &&
         !read_quickly(reader->text, reader->text_size, element->kind, &reader->value)) {
         report_tokens(reader, frame, gi_kind_count(element->kind));
@@ -310,11 +350,13 @@ bool gi_value_finish(GiReader *reader, const GiFrame *frame, GiVec *value) {
     }
     *value = reader->value;
     if (passes(element->check, *value)) return true;
-    size_t begin = 0, end = reader->text_size;
-    while (is_space(reader->text[begin])) begin++;
-    while (is_space(reader->text[end - 1])) end--;
-    return gi_value_check(reader, element, *value, place_of(reader, frame, begin),
-        token_length(reader, (Token){begin, end}));
+    Token all = trim(reader);
+    return gi_value_check(
+        reader, element, *value, place_of(reader, frame, all.begin), token_length(reader, all));
+}
+
+GiPlace gi_value_place(const GiReader *reader, const GiFrame *frame) {
+    return place_of(reader, frame, trim(reader).begin);
 }
 
 GiVec gi_value_parse_default(const char *text) {

@@ -161,7 +161,7 @@ static bool is_blocked(const GiStage *stage, int i, const Beam *beam) {
 static void add_beam(const GiStage *stage, int i, const Beam *beam) {
     GiShading at = gi_surface_shading(stage, i);
     GiVec value = gi_bsdf_evaluate(&at, beam->direction);
-    double factor = beam->radiance ? gi_bsdf_radiance_factor(&at) : 1;
+    double factor = beam->radiance ? gi_stage_radiance(&at) : 1;
     if (beam->density > 0 && gi_surface_probes(stage->world, at.shader)) {
         factor *= gi_stage_share(beam->density, gi_bsdf_density(&at, beam->direction));
     }

@@ -126,6 +126,11 @@ static inline bool gi_stage_draws(const GiStage *stage, int light) {
     return stage->light == 0 || stage->light == (light < 0 ? -1 : light + 1);
 }
 
+/* What light given as radiance counts beside that of point lights, given as intensity. */
+static inline double gi_stage_radiance(const GiShading *at) {
+    return at->rules->radiance_over_pi ? gi_bsdf_radiometric(at) : 1;
+}
+
 /* ---- surface.c */
 
 /* The rays of the bundle: pixels[i] is where ray i began. */

@@ -150,7 +150,7 @@ static bool draw_direction(
     double density = gi_bsdf_sample(&scatter->local, u, &l);
     if (!(density > 0)) return false;
     GiVec value = gi_bsdf_evaluate(&scatter->local, l);
-    double factor = gi_bsdf_radiance_factor(&scatter->local) / density;
+    double factor = gi_stage_radiance(&scatter->local) / density;
     flight->direction = l;
     flight->density = density;
     flight->factor =

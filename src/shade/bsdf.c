@@ -73,9 +73,3 @@ double gi_bsdf_sample(const GiShading *at, const double u[3], GiVec *l) {
     if (turned_away(at) || !draw(at, u, l)) return 0;
     return gi_bsdf_density(at, *l);
 }
-
-double gi_bsdf_radiance_factor(const GiShading *at) {
-    bool over_pi =
-        at->shader->type == GLINT_SHADER_BECKMANN || at->shader->type == GLINT_SHADER_GGX;
-    return at->rules->radiance_over_pi && !over_pi ? GI_INVERSE_PI : 1;
-}

@@ -36,11 +36,6 @@ double gi_bsdf_sample(const GiShading *at, const double u[3], GiVec *l);
  * sphere is one less the part of draws that give none. */
 double gi_bsdf_density(const GiShading *at, GiVec l);
 
-/* What the light of large sources, given as radiance, counts beside that of point lights, given as
- * intensity: 1, or 1 / pi where point lights are reckoned with a diffuse term of kd instead of
- * kd / pi and large ones physically. */
-double gi_bsdf_radiance_factor(const GiShading *at);
-
 /* ---- branches */
 
 enum { GI_BRANCH_LIMIT = GI_SUBSTRATE_LIMIT + 3 };
