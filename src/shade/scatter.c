@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Takes a surface apart into the local part under all glazing and the rays that go on from it. Each
  * layer adds its branches and hands on what is left of the light. */
+#include "shade/bsdf.h"
 #include "shade/dielectric.h"
-#include "shade/lobe.h"
 
 static GiVec gray(double x) { return gi_vec(x, x, x); }
 
