@@ -36,7 +36,7 @@ static bool has_ending(const char *text, const char *ending) {
 }
 
 static bool names_picture(const char *path) {
-    return has_ending(path, ".png") || has_ending(path, ".pfm");
+    return has_ending(path, ".png") || has_ending(path, ".pfm") || has_ending(path, ".exr");
 }
 
 /* folder + "/" + name + ending; a null folder is left out. Null: no memory. */
@@ -117,7 +117,13 @@ static CliStatus name_pictures(CliJobs *jobs, const char *output) {
         }
         if (!names_picture(output)) {
             return cli_message_usage(
-                "--output takes a name that ends in .png or .pfm, not '%s'", output);
+                "--output takes a name that ends in .png, .pfm or .exr, not '%s'", output);
+        }
+        /* Better now than after an hour of drawing. */
+        GlintError error;
+        if (glint_image_check_path(output, &error) != GLINT_OK) {
+            cli_message_error("%s", error.message);
+            return CLI_MACHINE;
         }
     }
     for (int i = 0; i < jobs->count; i++) {

@@ -6,7 +6,7 @@
 
 typedef struct CliJob {
     char *scene;   /* a path, or "-" */
-    char *picture; /* a path that ends in .png or .pfm */
+    char *picture; /* a path that ends in .png, .pfm or .exr */
 } CliJob;
 
 typedef struct CliJobs {

@@ -7,7 +7,7 @@
 
 #define CLI_OPTION_LIST(X)                                                                         \
     X(OUTPUT, 'o', "output", "FILE", REQUIRED, PICTURE,                                            \
-        "write to FILE (.png or .pfm), or into a folder")                                          \
+        "write to FILE (.png, .pfm or .exr), or into a folder")                                    \
     X(SIZE, 0, "size", "WxH", REQUIRED, PICTURE, "draw W x H pixels, whatever the scene says")     \
     X(CROP, 0, "crop", "X,Y,W,H", REQUIRED, PICTURE, "draw only W x H pixels from X,Y (top left)") \
     X(DIALECT, 0, "dialect", "NAME", REQUIRED, PICTURE, "follow the rules of a year (see below)")  \

@@ -92,6 +92,10 @@ printed b.png
 check "the same picture under another name" cmp -s b.png first.png
 run 0 --output=c.pfm -t1 a.xml
 check "a PFM" test "$(head -c 2 c.pfm)" = PF
+if [ -e "${glint%/*}/modules/glint-exr.so" ]; then
+    run 0 --output=c.exr -t1 a.xml
+    check "an EXR" test "$(head -c 4 c.exr | od -An -tx1)" = " 76 2f 31 01"
+fi
 run 0 -qt 1 -ob.png -- a.xml
 run 0 --threads 3 -o t.png a.xml
 check "threads do not change the picture" cmp -s t.png first.png
@@ -195,7 +199,7 @@ run 2
 says "no scene"
 run 2 - -
 run 2 -o a.gif a.xml
-says ".png or .pfm"
+says ".png, .pfm or .exr"
 run 2 -o missing/ a.xml
 for isa in $("$glint" --list-isa); do
     run 0 --isa "$isa" -o isa.png a.xml

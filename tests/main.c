@@ -37,7 +37,8 @@
     X(golden) \
     X(api) \
     X(load) \
-    X(life)
+    X(life) \
+    X(exr)
 /* clang-format on */
 
 #define DECLARE(room) extern const GiTest tests_##room[];

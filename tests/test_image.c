@@ -410,22 +410,23 @@ static void watch_progress(void *user, GlintPhase phase, double fraction) {
 }
 
 static void image_monitor(void) {
-    static const char *const names[] = {"picture.png", "picture.pfm"};
+    static const char *const names[] = {"picture.png", "picture.pfm", "picture.exr"};
+    int formats = glint_image_check_path(names[2], NULL) == GLINT_OK ? 3 : 2;
     const char *folder = make_folder("monitor");
     GlintImage image = make_image(700, 700, 2);
     GlintError error;
-    for (int i = 0; i < 4; i++) {
-        bool cancel = i < 2;
+    for (int i = 0; i < 2 * formats; i++) {
+        bool cancel = i < formats;
         Watch watch = {.polls_allowed = cancel ? 1 : 1000};
         GlintMonitor monitor = {watch_progress, watch_cancelled, &watch};
         GlintSaveDesc desc = glint_save_desc_default();
         desc.thread_count = 1;
         desc.monitor = &monitor;
         char path[600];
-        snprintf(path, sizeof path, "%s/%s", folder, names[i % 2]);
+        snprintf(path, sizeof path, "%s/%s", folder, names[i % formats]);
         GlintStatus status = glint_image_save(&image, path, &desc, &error);
         CHECK_INT(status, cancel ? GLINT_CANCELLED : GLINT_OK);
-        CHECK_INT(count_entries(folder), cancel ? 0 : i - 1);
+        CHECK_INT(count_entries(folder), cancel ? 0 : i - formats + 1);
         CHECK(!watch.falling && (cancel ? watch.last < 1 : watch.last == 1));
     }
     free((void *)(uintptr_t)image.pixels);

@@ -10,7 +10,7 @@
  *     glint_scene_load_file   ... filled from an XML file, or with glint_scene_add_...
  *     glint_scene_commit      checks it and builds the tree; from here on it is immutable
  *     glint_render            draws it into memory of the caller's
- *     glint_image_save        writes PNG or PFM
+ *     glint_image_save        writes PNG, PFM or EXR
  *     glint_scene_destroy     frees everything the scene ever made
  *
  * Conventions:
@@ -420,20 +420,35 @@ typedef struct GlintImage {
     const float *pixels; /* width * height * 3, as glint_render left them */
 } GlintImage;
 
+/* Further values of every pixel, for formats that have room for them (EXR). They are written as
+ * they are. The channels of a layer are called "name.X", "name.Y" and so on. */
+typedef struct GlintLayer {
+    const char *name;       /* letters, digits, '.', '_', '-', a letter first; at most 28 */
+    const char *components; /* one letter each, 1 to 4: "XYZ", "RGB", "Z" */
+    const float *pixels;    /* width * height * components, top row first */
+} GlintLayer;
+
 typedef struct GlintSaveDesc {
-    const char *title;           /* text chunk "Title", normally the scene's name; null: none */
-    int thread_count;            /* 0 (default): one per core */
+    const char *title; /* text "Title" of the file, normally the scene's name; null: none */
+    int thread_count;  /* 0 (default): one per core */
     const GlintMonitor *monitor; /* null */
+    const GlintLayer *layers;    /* null; refused unless the format is EXR */
+    int layer_count;             /* 0 to 256 */
     int cookie;
 } GlintSaveDesc;
 
 GLINT_API GlintSaveDesc glint_save_desc_default(void);
 
-/* Writes path, in the format of its extension: .png (8 bits, gamma 2.2) or .pfm (linear float). The
- * file appears whole or not at all: it is written under a temporary name, then renamed. Errors:
- * ARGUMENT (extension), FILE, MEMORY, CANCELLED. */
+/* Writes path, in the format of its extension: .png (8 bits, gamma 2.2), .pfm (linear float) or
+ * .exr (linear float, compressed, with layers; by a module that may be missing). The file appears
+ * whole or not at all: it is written under a temporary name, then renamed. Errors: ARGUMENT
+ * (extension, layers), FILE (also a missing module), MEMORY, CANCELLED. */
 GLINT_API GlintStatus glint_image_save(
     const GlintImage *image, const char *path, const GlintSaveDesc *desc, GlintError *error);
+
+/* Whether there is a format for this name and Glint can write it; a question to ask before drawing.
+ * Nothing is written. Errors: ARGUMENT (extension), FILE (a missing module). */
+GLINT_API GlintStatus glint_image_check_path(const char *path, GlintError *error);
 
 /* Encodes a PNG and hands its bytes to sink, in order. sink returns false to stop
  * (GLINT_ERROR_FILE). */

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * The public functions for pictures: arguments are checked here, the work is done in png.c, pfm.c
- * and gamma.c. */
+ * The public functions for pictures: arguments are checked here, the work is done in png.c, pfm.c,
+ * exr.c and gamma.c. */
 #include "base/assert.h"
 #include "base/cookie.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "image/exr.h"
 #include "image/gamma.h"
 #include "image/pfm.h"
 #include "image/png.h"
@@ -35,7 +36,7 @@ static GlintStatus check(const GlintImage *image, const GlintSaveDesc *desc, Gli
     return fault == NULL ? GLINT_OK : gi_error_set(error, GLINT_ERROR_ARGUMENT, "%s", fault);
 }
 
-typedef enum Format { FORMAT_NONE, FORMAT_PNG, FORMAT_PFM } Format;
+typedef enum Format { FORMAT_NONE, FORMAT_PNG, FORMAT_PFM, FORMAT_EXR } Format;
 
 /* From the extension, in letters of either case. */
 static Format format_of(const char *path) {
@@ -48,6 +49,7 @@ static Format format_of(const char *path) {
     }
     return strcmp(extension, ".png") == 0   ? FORMAT_PNG
            : strcmp(extension, ".pfm") == 0 ? FORMAT_PFM
+           : strcmp(extension, ".exr") == 0 ? FORMAT_EXR
                                             : FORMAT_NONE;
 }
 
@@ -55,29 +57,59 @@ static bool to_file(void *user, const void *bytes, size_t size) {
     return gi_file_write(user, bytes, size);
 }
 
+static GlintStatus check_format(const char *path, GlintError *error) {
+    if (path == NULL) return gi_error_set(error, GLINT_ERROR_ARGUMENT, "there is no path");
+    if (format_of(path) != FORMAT_NONE) return GLINT_OK;
+    return gi_error_set_path(
+        error, GLINT_ERROR_ARGUMENT, path, "the name of a picture must end in .png, .pfm or .exr");
+}
+
+static GlintStatus check_layers(
+    const GlintImage *image, Format format, const GlintSaveDesc *desc, GlintError *error) {
+    const char *fault = NULL;
+    if (format == FORMAT_EXR) {
+        fault = gi_exr_check_picture(image, desc);
+    } else if (desc->layer_count != 0) {
+        fault = "only EXR has layers";
+    }
+    return fault == NULL ? GLINT_OK : gi_error_set(error, GLINT_ERROR_ARGUMENT, "%s", fault);
+}
+
+GlintStatus glint_image_check_path(const char *path, GlintError *error) {
+    GlintStatus status = check_format(path, error);
+    return status == GLINT_OK && format_of(path) == FORMAT_EXR ? gi_exr_check(error) : status;
+}
+
+/* On failure the reason may be the file's, which gi_file_write_commit tells. */
+static GlintStatus write_format(const GlintImage *image, Format format, const GlintSaveDesc *desc,
+    GiFileWriter *file, GlintError *error) {
+    GiMemory memory;
+    gi_memory_init(&memory, NULL, 0);
+    switch (format) {
+    case FORMAT_NONE: break;
+    case FORMAT_PNG:
+        return gi_png_encode(
+            &memory, image, desc->title, desc->thread_count, desc->monitor, to_file, file, error);
+    case FORMAT_PFM: return gi_pfm_encode(&memory, image, desc->monitor, to_file, file, error);
+    case FORMAT_EXR: return gi_exr_write(&memory, image, desc, file, error);
+    }
+    return GLINT_OK;
+}
+
 GlintStatus glint_image_save(
     const GlintImage *image, const char *path, const GlintSaveDesc *desc, GlintError *error) {
     GlintStatus status = check(image, desc, error);
+    if (status == GLINT_OK) status = check_format(path, error);
     if (status != GLINT_OK) return status;
-    if (path == NULL) return gi_error_set(error, GLINT_ERROR_ARGUMENT, "there is no path");
     Format format = format_of(path);
-    if (format == FORMAT_NONE) {
-        return gi_error_set_path(
-            error, GLINT_ERROR_ARGUMENT, path, "the name of a picture must end in .png or .pfm");
-    }
-    GiMemory memory;
-    gi_memory_init(&memory, NULL, 0);
+    status = check_layers(image, format, desc, error);
+    if (status != GLINT_OK) return status;
     GiFileWriter file;
     status = gi_file_write_begin(&file, path, error);
     if (status != GLINT_OK) return status;
-    if (format == FORMAT_PNG) {
-        status = gi_png_encode(
-            &memory, image, desc->title, desc->thread_count, desc->monitor, to_file, &file, error);
-    } else {
-        status = gi_pfm_encode(&memory, image, desc->monitor, to_file, &file, error);
-    }
-    if (status == GLINT_OK || status == GLINT_ERROR_FILE) {
-        /* The only sink is the file, and commit knows better than the encoder why it stopped. */
+    status = write_format(image, format, desc, &file, error);
+    if (status == GLINT_OK || (status == GLINT_ERROR_FILE && file.error != 0)) {
+        /* Commit knows better than the encoder why the file stopped it. */
         return gi_file_write_commit(&file, error);
     }
     gi_file_write_abandon(&file);
@@ -89,6 +121,8 @@ GlintStatus glint_image_encode_png(const GlintImage *image, const GlintSaveDesc 
     GlintStatus status = check(image, desc, error);
     if (status != GLINT_OK) return status;
     if (sink == NULL) return gi_error_set(error, GLINT_ERROR_ARGUMENT, "there is no sink");
+    status = check_layers(image, FORMAT_PNG, desc, error);
+    if (status != GLINT_OK) return status;
     GiMemory memory;
     gi_memory_init(&memory, NULL, 0);
     return gi_png_encode(

@@ -193,6 +193,26 @@ bool gi_file_write(GiFileWriter *writer, const void *bytes, size_t size) {
     return writer->error == 0;
 }
 
+bool gi_file_write_at(GiFileWriter *writer, const void *bytes, size_t size, uint64_t offset) {
+    const char *from = bytes;
+    /* What is written directly is appended to, wherever a write is meant to go. */
+    if (writer->folder < 0 && writer->error == 0) writer->error = ESPIPE;
+    while (size > 0 && writer->error == 0) {
+        size_t part = size < (1u << 30) ? size : 1u << 30;
+        ssize_t written = pwrite(writer->fd, from, part, (off_t)offset);
+        if (written > 0) {
+            from += written;
+            offset += (uint64_t)written;
+            size -= (size_t)written;
+        } else if (written == 0) {
+            writer->error = ENOSPC;
+        } else if (errno != EINTR) {
+            writer->error = errno;
+        }
+    }
+    return writer->error == 0;
+}
+
 GlintStatus gi_file_write_commit(GiFileWriter *writer, GlintError *error) {
     int code = writer->error;
     if (code == 0 && writer->folder >= 0 && writer->temporary[0] == '\0' && !link_name(writer)) {

@@ -26,6 +26,10 @@ GlintStatus gi_file_write_begin(GiFileWriter *writer, const char *path, GlintErr
 /* Appends. False after a failure, which commit reports. */
 bool gi_file_write(GiFileWriter *writer, const void *bytes, size_t size);
 
+/* Writes at a place of the file, for formats that do not come in order; not to be mixed with the
+ * above. False after a failure, as above, and where there are no places (a pipe). */
+bool gi_file_write_at(GiFileWriter *writer, const void *bytes, size_t size, uint64_t offset);
+
 /* Puts the file in its place and ends the writer. On any failure, also an earlier one of
  * gi_file_write, nothing is left and *error tells it: GLINT_ERROR_FILE. */
 GlintStatus gi_file_write_commit(GiFileWriter *writer, GlintError *error);
