@@ -101,10 +101,17 @@ typedef struct GiMeshCounts {
 /* A mesh has at least one triangle. */
 GlintStatus gi_mesh_check_triangles(size_t count, GiMeshFault *fault);
 
+/* Where the numbers of a mesh go. Null where there are none. */
+typedef struct GiMeshRoom {
+    GiFloat3 *positions, *normals;
+    GiFloat2 *texcoords;
+    GiCorners *corners;
+} GiMeshRoom;
+
 /* Makes exactly the room that is needed, behind what the store holds, and fills in where the mesh
  * begins and how much it has. */
 GlintStatus gi_mesh_begin(GiMeshStore *store, GiMemory *memory, const GiMeshCounts *counts,
-    GiMesh *mesh, GiMeshFault *fault);
+    GiMesh *mesh, GiMeshRoom *room, GiMeshFault *fault);
 
 /* Adds the mesh to what the store holds. Cannot fail. */
 uint32_t gi_mesh_end(

@@ -53,7 +53,7 @@ GlintStatus gi_mesh_check_triangles(size_t count, GiMeshFault *fault) {
 }
 
 GlintStatus gi_mesh_begin(GiMeshStore *store, GiMemory *memory, const GiMeshCounts *counts,
-    GiMesh *mesh, GiMeshFault *fault) {
+    GiMesh *mesh, GiMeshRoom *room, GiMeshFault *fault) {
     if (counts->triangles > GI_SHAPE_INDEX_LIMIT - store->corners.count) {
         return gi_mesh_fault(fault, GLINT_ERROR_SCENE,
             "the meshes of the scene would have more than %u triangles", GI_SHAPE_INDEX_LIMIT);
@@ -77,6 +77,11 @@ GlintStatus gi_mesh_begin(GiMeshStore *store, GiMemory *memory, const GiMeshCoun
         .position_count = (uint32_t)counts->positions,
         .first_normal = (uint32_t)store->normals.count,
         .first_texcoord = (uint32_t)store->texcoords.count};
+    *room = (GiMeshRoom){NULL, NULL, NULL, NULL};
+    if (counts->positions > 0) room->positions = store->positions.data + store->positions.count;
+    if (counts->normals > 0) room->normals = store->normals.data + store->normals.count;
+    if (counts->texcoords > 0) room->texcoords = store->texcoords.data + store->texcoords.count;
+    if (counts->triangles > 0) room->corners = store->corners.data + store->corners.count;
     return GLINT_OK;
 }
 
@@ -143,20 +148,19 @@ GlintStatus gi_mesh_add(GiMeshStore *store, GiMemory *memory, const GiMeshArrays
     GiMeshCounts counts = {count, arrays->normals != NULL ? count : 0,
         arrays->texcoords != NULL ? count : 0, arrays->triangle_count};
     GiMesh mesh;
+    GiMeshRoom room;
     GlintStatus status = gi_mesh_check_triangles(counts.triangles, fault);
     if (status == GLINT_OK) status = check_arrays(arrays, fault);
-    if (status == GLINT_OK) status = gi_mesh_begin(store, memory, &counts, &mesh, fault);
+    if (status == GLINT_OK) status = gi_mesh_begin(store, memory, &counts, &mesh, &room, fault);
     if (status != GLINT_OK) return status;
     mesh.smooth = arrays->normals != NULL;
     mesh.textured = arrays->texcoords != NULL;
-    memcpy(store->positions.data + mesh.first_position, arrays->positions, count * 12);
-    if (mesh.smooth) memcpy(store->normals.data + mesh.first_normal, arrays->normals, count * 12);
-    if (mesh.textured) {
-        memcpy(store->texcoords.data + mesh.first_texcoord, arrays->texcoords, count * 8);
-    }
-    GiCorners *corners = store->corners.data + mesh.first_triangle;
+    memcpy(room.positions, arrays->positions, count * sizeof *room.positions);
+    if (mesh.smooth) memcpy(room.normals, arrays->normals, count * sizeof *room.normals);
+    if (mesh.textured) memcpy(room.texcoords, arrays->texcoords, count * sizeof *room.texcoords);
     for (size_t i = 0; i < arrays->triangle_count; i++) {
-        for (int k = 0; k < 3; k++) corners[i][k] = mesh.first_position + arrays->triangles[i][k];
+        for (int k = 0; k < 3; k++)
+            room.corners[i][k] = mesh.first_position + arrays->triangles[i][k];
     }
     *index = gi_mesh_end(store, memory, &counts, &mesh);
     return GLINT_OK;

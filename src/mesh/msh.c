@@ -256,17 +256,18 @@ static GlintStatus build(Msh *msh, GiMeshStore *store, uint32_t *index) {
     GiMeshCounts counts = {msh->vertex_count, smooth ? msh->vertex_count : 0,
         textured ? msh->vertex_count : 0, msh->triangle_count};
     GiMesh mesh;
+    GiMeshRoom room;
     GlintStatus status = gi_mesh_check_triangles(counts.triangles, input->fault);
     if (status == GLINT_OK) {
-        status = gi_mesh_begin(store, input->memory, &counts, &mesh, input->fault);
+        status = gi_mesh_begin(store, input->memory, &counts, &mesh, &room, input->fault);
     }
     if (status != GLINT_OK) return status;
     mesh.smooth = smooth;
     mesh.textured = textured;
-    msh->numbers[VERTICES] = (float *)(store->positions.data + mesh.first_position);
-    msh->numbers[NORMALS] = (float *)(store->normals.data + mesh.first_normal);
-    msh->numbers[TEXCOORDS] = (float *)(store->texcoords.data + mesh.first_texcoord);
-    msh->corners = store->corners.data + mesh.first_triangle;
+    msh->numbers[VERTICES] = (float *)room.positions;
+    msh->numbers[NORMALS] = (float *)room.normals;
+    msh->numbers[TEXCOORDS] = (float *)room.texcoords;
+    msh->corners = room.corners;
     msh->first_position = mesh.first_position;
     gi_mesh_run(input, msh->chunks.count, parse_chunk, msh);
     status = gi_mesh_input_status(input);

@@ -22,10 +22,8 @@ enum { NORMAL, TEXCOORD, ATTRIBUTE_COUNT };
 typedef struct Obj {
     GiMeshInput *input;
     GiMeshChunks chunks;
-    GiMeshCounts *before;          /* of each chunk, what lies before it; at the end the totals */
-    GiFloat3 *positions, *normals; /* of this mesh */
-    GiFloat2 *texcoords;
-    GiCorners *corners;
+    GiMeshCounts *before; /* of each chunk, what lies before it; at the end the totals */
+    GiMeshRoom room;
     uint32_t first_position, first[ATTRIBUTE_COUNT]; /* in the scene-wide arrays */
     GiCorners *own_corners[ATTRIBUTE_COUNT];         /* null: none yet */
     _Atomic unsigned use[ATTRIBUTE_COUNT];
@@ -325,7 +323,7 @@ static bool read_face(Parser *parser) {
         if (count >= 2) {
             size_t at = parser->at.triangles;
             if (!has_room(parser, at, parser->limit.triangles)) return false;
-            put_row(&obj->corners[at], obj->first_position, first.position, last.position,
+            put_row(&obj->room.corners[at], obj->first_position, first.position, last.position,
                 corner.position);
             for (int i = 0; i < ATTRIBUTE_COUNT; i++) {
                 if (obj->own_corners[i] == NULL) continue;
@@ -359,15 +357,15 @@ static bool read_line(Parser *parser) {
     case POSITION:
         /* Then a weight, a colour, or both. */
         return has_room(parser, at->positions, limit->positions) &&
-               read_numbers(parser, 3, 3, 7, obj->positions[at->positions++]);
+               read_numbers(parser, 3, 3, 7, obj->room.positions[at->positions++]);
     case NORMAL_VECTOR:
         return has_room(parser, at->normals, limit->normals) &&
-               read_numbers(parser, 3, 3, 3, obj->normals[at->normals++]);
+               read_numbers(parser, 3, 3, 3, obj->room.normals[at->normals++]);
     case TEXTURE:
         if (!has_room(parser, at->texcoords, limit->texcoords)) return false;
         unused[1] = 0;
         if (!read_numbers(parser, 2, 1, 3, unused)) return false;
-        memcpy(obj->texcoords[at->texcoords++], unused, sizeof obj->texcoords[0]);
+        memcpy(obj->room.texcoords[at->texcoords++], unused, sizeof obj->room.texcoords[0]);
         return true;
     case FACE: return read_face(parser);
     case IGNORED: return true;
@@ -453,12 +451,9 @@ static GlintStatus build(Obj *obj, GiMeshStore *store, uint32_t *index) {
     GiMeshInput *input = obj->input;
     const GiMeshCounts *totals = &obj->before[obj->chunks.count];
     GiMesh mesh;
-    GlintStatus status = gi_mesh_begin(store, input->memory, totals, &mesh, input->fault);
+    GlintStatus status =
+        gi_mesh_begin(store, input->memory, totals, &mesh, &obj->room, input->fault);
     if (status != GLINT_OK) return status;
-    obj->positions = store->positions.data + mesh.first_position;
-    obj->normals = store->normals.data + mesh.first_normal;
-    obj->texcoords = store->texcoords.data + mesh.first_texcoord;
-    obj->corners = store->corners.data + mesh.first_triangle;
     obj->first_position = mesh.first_position;
     obj->first[NORMAL] = mesh.first_normal;
     obj->first[TEXCOORD] = mesh.first_texcoord;

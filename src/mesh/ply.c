@@ -16,9 +16,7 @@ typedef struct Ply {
     const char *p, *end;
     size_t triangle_count; /* found; then, still to come */
     bool filling;          /* the second time */
-    GiFloat3 *positions, *normals;
-    GiFloat2 *texcoords; /* null: there are none */
-    GiCorners *corners;
+    GiMeshRoom room;
     uint32_t first_position;
 } Ply;
 
@@ -154,11 +152,11 @@ static bool read_vertex_number(Ply *ply, const GiPlyProperty *property, size_t r
     if (!read_real(ply, property->type, &value)) return false;
     GiPlyRole role = property->role;
     if (role <= GI_PLY_Z) {
-        ply->positions[row][role - GI_PLY_X] = value;
+        ply->room.positions[row][role - GI_PLY_X] = value;
     } else if (role <= GI_PLY_NZ) {
-        if (ply->normals != NULL) ply->normals[row][role - GI_PLY_NX] = value;
-    } else if (ply->texcoords != NULL) {
-        ply->texcoords[row][role - GI_PLY_U] = value;
+        if (ply->room.normals != NULL) ply->room.normals[row][role - GI_PLY_NX] = value;
+    } else if (ply->room.texcoords != NULL) {
+        ply->room.texcoords[row][role - GI_PLY_U] = value;
     }
     return true;
 }
@@ -199,7 +197,7 @@ static bool read_polygon(Ply *ply, const GiPlyProperty *property, size_t row) {
             return gi_mesh_refuse(ply->input, 0, at, "the file changed while it was read");
         }
         ply->triangle_count--;
-        GiCorners *triangle = ply->corners++;
+        GiCorners *triangle = ply->room.corners++;
         (*triangle)[0] = first;
         (*triangle)[1] = last;
         (*triangle)[2] = corner;
@@ -297,15 +295,11 @@ static GlintStatus build(Ply *ply, GiMeshStore *store, uint32_t *index) {
     GiMesh mesh;
     GlintStatus status = gi_mesh_check_triangles(counts.triangles, input->fault);
     if (status == GLINT_OK) {
-        status = gi_mesh_begin(store, input->memory, &counts, &mesh, input->fault);
+        status = gi_mesh_begin(store, input->memory, &counts, &mesh, &ply->room, input->fault);
     }
     if (status != GLINT_OK) return status;
     mesh.smooth = smooth;
     mesh.textured = textured;
-    ply->positions = store->positions.data + mesh.first_position;
-    if (smooth) ply->normals = store->normals.data + mesh.first_normal;
-    if (textured) ply->texcoords = store->texcoords.data + mesh.first_texcoord;
-    ply->corners = store->corners.data + mesh.first_triangle;
     ply->first_position = mesh.first_position;
     ply->filling = true;
     status = read_body(ply);
