@@ -12,18 +12,21 @@ plan='
 base:
 math:
 port:
+sample:
 sched: port
 shape:
 mesh: shape sched port
 image: sched port
-scene: mesh shape port
+light: image port
+texture: port
+scene: mesh shape light texture port
 accel: shape sched port
 kernel: accel shape port
-shade: scene shape
+shade: scene shape light texture
 camera: scene
-reader: scene shape port
-render: shade camera kernel accel image sched scene shape port
-glint.c: render reader scene image accel kernel shape shade camera sched port
+reader: scene mesh shape light texture port
+render: sample light texture shade camera kernel accel image sched scene shape port
+glint.c: sample light texture mesh render reader scene image accel kernel shape shade camera sched port
 '
 
 found=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' src --include='*.[ch]')

@@ -72,6 +72,11 @@ check "the header" test -f "$prefix/include/glint/glint.h"
 check "the program" "$prefix/bin/glint" --version
 check "the manual" test -s "$prefix/share/man/man1/glint.1"
 check "the shared library's name" test -e "$libdir/libglint.so.0"
+# What the build made of modules must be where the library will look for it.
+for module in "$build"/modules/*.so; do
+    [ -e "$module" ] || continue
+    check "the module ${module##*/}" test -f "$libdir/glint/${module##*/}"
+done
 cd "$dir" || exit 3
 flags() { pkg-config --define-variable=prefix="$prefix" --cflags --libs "$@" glint; }
 # shellcheck disable=SC2046 # flags are several words

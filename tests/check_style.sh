@@ -18,7 +18,7 @@ rule() { # rule NAME FINDINGS: holds when there are none
     fi
 }
 
-c_files=$(find include src cli tests fuzz bench samples -name '*.[ch]' 2>/dev/null | sort)
+c_files=$(find include src modules cli tests fuzz bench samples -name '*.[ch]' 2>/dev/null | sort)
 scripts="dev .ci/run $(find tests -name '*.sh' | sort)"
 
 # No file of ours has a blank in its name.

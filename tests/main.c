@@ -15,8 +15,8 @@
 
 /* clang-format off */
 #define ROOMS(X) \
-    X(base) X(math) X(mesh) X(reader) X(malformed) X(hit) X(shape) X(kernel) X(image) X(file) \
-    X(radiance) X(render) X(golden) X(api) X(load) X(life)
+    X(base) X(math) X(mesh) X(sample) X(reader) X(malformed) X(hit) X(shape) X(kernel) X(image) \
+    X(file) X(light) X(texture) X(radiance) X(render) X(golden) X(api) X(load) X(life)
 /* clang-format on */
 
 #define DECLARE(room) extern const GiTest tests_##room[];

@@ -34,13 +34,11 @@ void gi_scene_reset(GiScene *scene) {
     gi_mesh_store_free(&scene->meshes, memory);
     gi_array_free(memory, &scene->mesh_surfaces);
     for (size_t i = 0; i < scene->pictures.count; i++) {
-        const GiPicture *picture = &scene->pictures.data[i];
-        gi_memory_free(memory, picture->rgb, (size_t)picture->width * (size_t)picture->height * 3);
+        gi_picture_free(&scene->pictures.data[i], memory);
     }
     gi_array_free(memory, &scene->pictures);
     gi_array_free(memory, &scene->textures);
-    size_t face = (size_t)scene->environment.face;
-    gi_memory_free(memory, scene->environment.pixels, face * face * 12 * 3 * sizeof(float));
+    gi_environment_free(&scene->environment, memory);
     gi_array_free(memory, &scene->groups);
     gi_array_free(memory, &scene->matrices);
     gi_array_free(memory, &scene->roots);

@@ -8,9 +8,11 @@
 #pragma once
 
 #include "base/array.h"
+#include "light/environment.h"
 #include "mesh/mesh.h"
 #include "scene/dialect.h"
 #include "shape/shape.h"
+#include "texture/texture.h"
 
 typedef struct GiCamera {
     GlintCameraType type;
@@ -49,26 +51,11 @@ typedef struct GiMeshSurface {
     GiShapeInfo info;
 } GiMeshSurface;
 
-typedef enum GiWrap { GI_WRAP_REPEAT, GI_WRAP_CLAMP } GiWrap;
-
 /* An image may be shared by textures that wrap it differently. */
 typedef struct GiTexture {
     uint32_t picture;
     GiWrap wrap;
 } GiTexture;
-
-/* 8-bit RGB, top row first, as the file has it. */
-typedef struct GiPicture {
-    int width, height;
-    uint8_t *rgb; /* width * height * 3 */
-} GiPicture;
-
-/* Radiance from all around (docs/scene-format.md, cubemap). */
-typedef struct GiEnvironment {
-    int face;      /* side of a face in pixels; 0: there is none */
-    float *pixels; /* a cross of 3 x 4 faces, RGB, row 0 as stored first */
-    double scale;
-} GiEnvironment;
 
 typedef enum GiTransformStepKind {
     GI_STEP_TRANSLATE,
