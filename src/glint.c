@@ -109,6 +109,7 @@ static GlintStatus load(GlintScene *scene, GiReaderSource *source, GlintError *e
     source->diagnostic = scene->diagnostic;
     source->diagnostic_user = scene->diagnostic_user;
     source->dialect = scene->dialect;
+    source->thread_count = scene->thread_count;
     double start = gi_machine_seconds();
     GiReaderResult result = {0};
     GlintStatus status = gi_reader_load(&scene->model, source, &result, error);

@@ -171,14 +171,51 @@ static void report_missing(GiReader *reader, const char *name, GiPlace place, in
 
 /* ---------------------------------------------------------------- loading */
 
-/* Calls the loader of the kind. */
-static bool load_new(
-    GiReader *reader, GiKind kind, const char *path, GiPlace place, int length, uint32_t *index) {
-    char quote[GI_QUOTE_SIZE];
-    (void)kind;
-    *index = 0;
-    gi_report_add(&reader->report, place, length, "%s cannot be loaded in this build",
-        quote_path(quote, path));
+typedef struct Loading {
+    GiReader *reader;
+    const char *path;
+    GiPlace place;
+    int length; /* of the name in the scene, in characters */
+} Loading;
+
+/* What a loader has to say, told at the place that names the file. line 0: no line. */
+static bool report_loader(
+    const Loading *loading, GlintStatus status, const char *message, uint64_t line) {
+    GiReader *reader = loading->reader;
+    char quote[GI_QUOTE_SIZE], at[24] = "";
+    if (status == GLINT_OK) return true;
+    if (status == GLINT_ERROR_MEMORY) {
+        gi_reader_out_of_memory(reader);
+    } else if (status == GLINT_CANCELLED || status == GLINT_ERROR_THREAD) {
+        reader->file_status = status;
+        gi_reader_stop(reader);
+    } else {
+        if (line > 0) snprintf(at, sizeof at, ":%llu", (unsigned long long)line);
+        gi_report_add(&reader->report, loading->place, loading->length, "%s%s: %s",
+            quote_path(quote, loading->path), at, message);
+    }
+    return false;
+}
+
+static bool load_mesh(const Loading *loading, uint32_t *index) {
+    GiReader *reader = loading->reader;
+    const GiReaderSource *source = reader->source;
+    GiMeshFault fault = {0};
+    GlintStatus status = gi_mesh_load(&reader->scene->meshes, reader->memory, source->thread_count,
+        loading->path, source->monitor, index, &fault);
+    return report_loader(loading, status, fault.message, fault.line);
+}
+
+static bool load_picture(const Loading *loading, uint32_t *index) {
+    GiReader *reader = loading->reader;
+    GiPicture picture = {0};
+    GlintError error = {0};
+    GlintStatus status = gi_picture_load(&picture, reader->memory, loading->path, &error);
+    if (!report_loader(loading, status, error.message, 0)) return false;
+    *index = (uint32_t)reader->scene->pictures.count;
+    if (gi_array_push(reader->memory, &reader->scene->pictures, picture)) return true;
+    gi_picture_free(&picture, reader->memory);
+    gi_reader_out_of_memory(reader);
     return false;
 }
 
@@ -201,19 +238,23 @@ static const GiLoadedFile *find_loaded(const GiFiles *files, GiKind kind, GiFile
     return NULL;
 }
 
-static bool load_found(GiReader *reader, GiKind kind, const char *path, GiFileId id, GiPlace place,
-    int length, uint32_t *index) {
+static bool load_found(const Loading *loading, GiKind kind, GiFileId id, uint32_t *index) {
+    GiReader *reader = loading->reader;
     const GiLoadedFile *known = find_loaded(&reader->files, kind, id);
     if (known != NULL) {
         *index = known->index;
         return !known->broken;
     }
-    bool good = load_new(reader, kind, path, place, length, index);
-    if (reader->out_of_memory) return false;
-    GiLoadedFile file = {id, kind, *index, !good};
-    if (gi_array_push(reader->memory, &reader->files.loaded, file)) return good;
-    gi_reader_out_of_memory(reader);
-    return false;
+    /* Room first: what is loaded is then known to be. */
+    if (!gi_array_reserve(reader->memory, &reader->files.loaded, 1)) {
+        gi_reader_out_of_memory(reader);
+        return false;
+    }
+    *index = 0;
+    bool good = kind == GI_KIND_SURFACE ? load_mesh(loading, index) : load_picture(loading, index);
+    reader->files.loaded.data[reader->files.loaded.count++] =
+        (GiLoadedFile){id, kind, *index, !good};
+    return good;
 }
 
 static bool load(GiReader *reader, GiKind kind, GiVec name, GiPlace place, uint32_t *index) {
@@ -224,12 +265,13 @@ static bool load(GiReader *reader, GiKind kind, GiVec name, GiPlace place, uint3
         return !entry->broken;
     }
     char path[PATH_LIMIT];
+    Loading loading = {reader, path, place, (int)name.y};
     GiFileId id;
     bool good;
     if (reader->source->without_files) {
         good = add_empty(reader, kind, index);
     } else if (find(reader->source->name, text, path, &id)) {
-        good = load_found(reader, kind, path, id, place, (int)name.y, index);
+        good = load_found(&loading, kind, id, index);
     } else {
         report_missing(reader, text, place, (int)name.y);
         return false; /* and again at its next use, since that is another line to mend */
@@ -248,8 +290,28 @@ bool gi_files_picture(GiReader *reader, GiVec name, GiPlace place, uint32_t *pic
     return load(reader, GI_KIND_TEXTURE, name, place, picture);
 }
 
+/* A scene keeps the last environment only, so there is one that may be loaded already. */
 bool gi_files_environment(GiReader *reader, GiVec name, GiPlace place) {
-    uint32_t unused;
-    reader->scene->environment.scale = name.z;
-    return reader->source->without_files || load(reader, GI_KIND_ENVIRONMENT, name, place, &unused);
+    GiEnvironment *environment = &reader->scene->environment, loaded = {0};
+    const char *text =
+        reader->strings.text.data + reader->strings.entries.data[(size_t)name.x].text;
+    if (reader->source->without_files) return true;
+    char path[PATH_LIMIT];
+    GiFileId id;
+    if (!find(reader->source->name, text, path, &id)) {
+        report_missing(reader, text, place, (int)name.y);
+        return false;
+    }
+    if (environment->face > 0 && gi_file_same(id, reader->files.environment)) {
+        environment->scale = name.z;
+        return true;
+    }
+    Loading loading = {reader, path, place, (int)name.y};
+    GlintError error = {0};
+    GlintStatus status = gi_environment_load(&loaded, reader->memory, path, name.z, &error);
+    if (!report_loader(&loading, status, error.message, 0)) return false;
+    gi_environment_free(environment, reader->memory);
+    *environment = loaded;
+    reader->files.environment = id;
+    return true;
 }

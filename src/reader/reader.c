@@ -292,6 +292,11 @@ GlintStatus gi_reader_load(
     if (reader == NULL) return gi_error_memory(error);
     open_reader(reader, scene, source);
     GlintStatus status = open_parser(reader) ? parse(reader, &feed, error) : gi_error_memory(error);
+    if (status == GLINT_OK && reader->file_status != GLINT_OK) {
+        status = reader->file_status == GLINT_CANCELLED ? report_cancelled(error)
+                                                        : gi_error_set(error, reader->file_status,
+                                                              "%s", "the system refused a thread");
+    }
     GlintDialect dialect = source->dialect != GLINT_DIALECT_AUTO ? source->dialect
                            : reader->dialect != GLINT_DIALECT_AUTO
                                ? reader->dialect

@@ -83,6 +83,7 @@ typedef struct GiReader {
     int64_t scene_end;    /* offset behind `</scene>` */
     bool stopped;         /* no event counts any more */
     bool out_of_memory;
+    GlintStatus file_status; /* CANCELLED or THREAD when that happened while a file was loaded */
     bool camera_seen, image_seen; /* with or without errors */
     char encoding[40];            /* as declared */
 
