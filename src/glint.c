@@ -443,16 +443,14 @@ GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, G
     if (status != GLINT_OK) return status;
     scene->committed = true;
     GlintStats *stats = &scene->stats;
-    const GiTree *tree = &scene->world.store.tree;
+    const GiWorld *world = &scene->world;
     stats->build_seconds = gi_machine_seconds() - start;
     stats->thread_count = gi_pool_worker_count(scene->pool);
-    stats->primitive_count = scene->world.primitive_count;
-    stats->node_count = tree->node_count;
-    stats->leaf_count = (uint64_t)tree->sphere_block_count + tree->box_block_count;
-    stats->tree_bytes = (uint64_t)tree->node_count * sizeof(GiNode) +
-                        (uint64_t)tree->sphere_block_count * sizeof(GiSphereBlock) +
-                        (uint64_t)tree->box_block_count * sizeof(GiBoxBlock);
-    stats->sah_cost = scene->world.store.sah_cost;
+    stats->primitive_count = world->primitive_count;
+    stats->node_count = world->node_count;
+    stats->leaf_count = world->leaf_count;
+    stats->tree_bytes = world->tree_bytes;
+    stats->sah_cost = world->store.sah_cost;
     return GLINT_OK;
 }
 

@@ -12,13 +12,17 @@
 
 /* ---------------------------------------------------------------- scenes */
 
+typedef struct Thing {
+    GiShapeRef ref;
+    uint32_t instance;
+} Thing;
+
 typedef struct Fixture {
     GiMemory memory;
     GiScene scene;
     GiWorld world;
     GiPool *pool;
-    GiShapeRef *refs; /* a copy of what was placed, for brute force */
-    size_t count;
+    GI_ARRAY(Thing) things; /* all that stands in the trees, for brute force */
 } Fixture;
 
 /* A scene of `count` shapes in a cube of the given size at `at`; sizes spread over `range`. */
@@ -60,6 +64,53 @@ static void add_shapes(GiScene *scene, Random *random, int count, GiVec at, doub
     }
 }
 
+static void collect(Fixture *fixture, const GiTree *tree, uint32_t instance);
+
+static void add_thing(Fixture *fixture, GiShapeRef ref, uint32_t instance) {
+    if (ref.bits == GI_SHAPE_NONE) return;
+    if (gi_shape_kind(ref) == GI_SHAPE_INSTANCE) {
+        uint32_t index = gi_shape_index(ref);
+        CHECK(instance == GI_SHAPE_NONE);
+        collect(fixture, fixture->world.shapes.instances[index].tree, index);
+        return;
+    }
+    CHECK(gi_array_push(&fixture->memory, &fixture->things, (Thing){ref, instance}));
+}
+
+static void add_child(Fixture *fixture, const GiTree *tree, uint32_t child, uint32_t instance) {
+    if (child == GI_CHILD_NONE) return;
+    uint32_t index = gi_child_index(child);
+    switch (gi_child_kind(child)) {
+    case GI_CHILD_NODE: break;
+    case GI_CHILD_TRIANGLES:
+        for (uint32_t i = 0; i < gi_child_count(child); i++) {
+            add_thing(
+                fixture, gi_shape_ref(GI_SHAPE_TRIANGLE, gi_child_first(child) + i), instance);
+        }
+        break;
+    case GI_CHILD_BOXES:
+        for (int i = 0; i < 8; i++) {
+            add_thing(fixture, tree->box_blocks[index].shape[i], instance);
+        }
+        break;
+    case GI_CHILD_SPHERES:
+        for (int i = 0; i < 8; i++) {
+            add_thing(fixture, tree->sphere_blocks[index].shape[i], instance);
+        }
+    }
+}
+
+/* The order does not matter: ties go by document order. */
+static void collect(Fixture *fixture, const GiTree *tree, uint32_t instance) {
+    for (uint32_t i = 0; i < tree->unbounded_count; i++) {
+        add_thing(fixture, tree->unbounded[i], instance);
+    }
+    add_child(fixture, tree, tree->root, instance);
+    for (uint32_t i = 0; i < tree->node_count; i++) {
+        for (int k = 0; k < 8; k++) add_child(fixture, tree, tree->nodes[i].child[k], instance);
+    }
+}
+
 static void fixture_commit(Fixture *fixture, const GiKernel *kernel) {
     GiScene *scene = &fixture->scene;
     scene->has_camera = scene->has_image = true;
@@ -68,27 +119,7 @@ static void fixture_commit(Fixture *fixture, const GiKernel *kernel) {
     CHECK_INT(gi_pool_create(&fixture->memory, 2, &fixture->pool), GLINT_OK);
     CHECK_INT(
         gi_world_commit(&fixture->world, scene, kernel, fixture->pool, NULL, &error), GLINT_OK);
-    /* The order of brute force does not matter: ties go by document order. */
-    const GiTree *tree = &fixture->world.store.tree;
-    size_t capacity = fixture->world.primitive_count + 8;
-    fixture->refs = gi_memory_allocate(&fixture->memory, capacity * sizeof *fixture->refs);
-    fixture->count = 0;
-    for (uint32_t i = 0; i < tree->unbounded_count; i++) {
-        fixture->refs[fixture->count++] = tree->unbounded[i];
-    }
-    for (uint32_t i = 0; i < tree->sphere_block_count; i++) {
-        for (int lane = 0; lane < 8; lane++) {
-            GiShapeRef ref = tree->sphere_blocks[i].shape[lane];
-            if (ref.bits != GI_SHAPE_NONE) fixture->refs[fixture->count++] = ref;
-        }
-    }
-    for (uint32_t i = 0; i < tree->box_block_count; i++) {
-        for (int lane = 0; lane < 8; lane++) {
-            GiShapeRef ref = tree->box_blocks[i].shape[lane];
-            if (ref.bits != GI_SHAPE_NONE) fixture->refs[fixture->count++] = ref;
-        }
-    }
-    CHECK_INT(fixture->count, fixture->world.primitive_count);
+    collect(fixture, &fixture->world.store.tree, GI_SHAPE_NONE);
 }
 
 static void fixture_begin(Fixture *fixture, GlintDialect dialect) {
@@ -99,8 +130,7 @@ static void fixture_begin(Fixture *fixture, GlintDialect dialect) {
 }
 
 static void fixture_end(Fixture *fixture) {
-    size_t capacity = fixture->world.primitive_count + 8;
-    gi_memory_free(&fixture->memory, fixture->refs, capacity * sizeof *fixture->refs);
+    gi_array_free(&fixture->memory, &fixture->things);
     gi_world_reset(&fixture->world, &fixture->memory);
     gi_pool_destroy(fixture->pool);
     gi_scene_reset(&fixture->scene);
@@ -112,14 +142,19 @@ static bool brute_force(const Fixture *fixture, const GiTraceRay *r, GiTraceHit 
     gi_hit_Ray ray = gi_hit_ray(
         r->origin.x, r->origin.y, r->origin.z, r->direction.x, r->direction.y, r->direction.z);
     *hit = (GiTraceHit){INFINITY, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
-    for (size_t i = 0; i < fixture->count; i++) {
+    for (size_t i = 0; i < fixture->things.count; i++) {
+        Thing thing = fixture->things.data[i];
+        if (thing.ref.bits == r->skip && thing.instance == r->skip_instance) continue;
+        gi_hit_Ray inner = ray;
+        if (thing.instance != GI_SHAPE_NONE) {
+            uint32_t transform = shapes->instances[thing.instance].transform;
+            inner = gi_hit_to_object(&ray, &shapes->transforms[transform].to_object);
+        }
         double t;
-        GiShapeRef ref = fixture->refs[i];
-        if (ref.bits == r->skip || !gi_hit_shape(shapes, ref, &ray, r->t_min, r->t_max, &t))
-            continue;
-        if (t < hit->t || (t == hit->t && gi_shape_before(shapes, ref, GI_SHAPE_NONE, hit->shape,
-                                              hit->instance))) {
-            *hit = (GiTraceHit){t, ref, GI_SHAPE_NONE};
+        if (!gi_hit_shape(shapes, thing.ref, &inner, r->t_min, r->t_max, &t)) continue;
+        if (t < hit->t || (t == hit->t && gi_shape_before(shapes, thing.ref, thing.instance,
+                                              hit->shape, hit->instance))) {
+            *hit = (GiTraceHit){t, thing.ref, thing.instance};
         }
     }
     return hit->shape.bits != GI_SHAPE_NONE;
@@ -171,7 +206,8 @@ static void compare_single(
     bool hits = brute_force(fixture, ray, &expected);
     bool found_any = kernel->closest(&fixture->world.trace, ray, &found);
     if (found_any != hits || (hits && (memcmp(&found.t, &expected.t, sizeof found.t) != 0 ||
-                                          found.shape.bits != expected.shape.bits))) {
+                                          found.shape.bits != expected.shape.bits ||
+                                          found.instance != expected.instance))) {
         if (wrong++ < 3) {
             test_fail(__FILE__, __LINE__,
                 "%s, %s: ray (%g %g %g) + t (%g %g %g): shape %x at %.17g, not %x at %.17g", what,
@@ -206,8 +242,12 @@ static void compare_bundle(const Fixture *fixture, const GiKernel *kernel, Rando
         bundle.dx[i] = d.x, bundle.dy[i] = d.y, bundle.dz[i] = d.z;
         bundle.t_min[i] = any ? 1e-9 : 0;
         bundle.t_max[i] = any ? 1 : INFINITY;
-        bundle.skip[i] = any && i % 7 == 0 ? fixture->refs[i % fixture->count].bits : GI_SHAPE_NONE;
-        bundle.skip_instance[i] = GI_SHAPE_NONE;
+        Thing skip = {{GI_SHAPE_NONE}, GI_SHAPE_NONE};
+        if (any && i % 7 == 0) {
+            skip = fixture->things.data[(size_t)i * 37 % fixture->things.count];
+        }
+        bundle.skip[i] = skip.ref.bits;
+        bundle.skip_instance[i] = skip.instance;
     }
     if (any) {
         kernel->bundle_any(&fixture->world.trace, &bundle);
@@ -224,7 +264,8 @@ static void compare_bundle(const Fixture *fixture, const GiKernel *kernel, Rando
         bool same = found == hits;
         if (same && hits && !any) {
             same = memcmp(&bundle.t[i], &expected.t, sizeof expected.t) == 0 &&
-                   bundle.shape[i] == expected.shape.bits;
+                   bundle.shape[i] == expected.shape.bits &&
+                   bundle.instance[i] == expected.instance;
         }
         if (!same && wrong++ < 3) {
             test_fail(__FILE__, __LINE__, "%s, %s, bundle %s: ray %d of %d: shape %x, not %x", what,
