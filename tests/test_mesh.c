@@ -369,7 +369,7 @@ static void obj_faults(void) {
         {"v 1 2 3 4 5 6 7 8\n", "1: expected the end of the line, found \"8\""},
         {"vn 1 2\n", "1: expected 3 numbers, found 2"},
         {"vn 1 2 3 4\n", "1: expected the end of the line, found \"4\""},
-        {"vt\n", "1: expected 1 numbers, found 0"},
+        {"vt\n", "1: expected 1 number, found 0"},
         {"vt 1 2 3 4\n", "1: expected the end of the line, found \"4\""},
         {"v 1 2 3\n\nabc 1\n", "3: unknown keyword \"abc\""},
         {"v 1 2 3\nvx 1\n", "2: unknown keyword \"vx\""},

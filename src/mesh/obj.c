@@ -236,8 +236,8 @@ static bool read_numbers(Parser *parser, int wanted, int fewest, int most, float
     }
     parser->p = p;
     if (count >= fewest) return true;
-    return gi_mesh_refuse(
-        parser->input, parser->worker, p, "expected %d numbers, found %d", fewest, count);
+    return gi_mesh_refuse(parser->input, parser->worker, p, "expected %d number%s, found %d",
+        fewest, fewest == 1 ? "" : "s", count);
 }
 
 /* One index, which counts from 1, or from the end of what there is so far when negative. */
