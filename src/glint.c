@@ -109,6 +109,7 @@ static GlintStatus load(GlintScene *scene, GiReaderSource *source, GlintError *e
     source->diagnostic = scene->diagnostic;
     source->diagnostic_user = scene->diagnostic_user;
     source->dialect = scene->dialect;
+    source->thread_count = scene->thread_count;
     double start = gi_machine_seconds();
     GiReaderResult result = {0};
     GlintStatus status = gi_reader_load(&scene->model, source, &result, error);
@@ -329,6 +330,8 @@ GlintStatus glint_scene_add_shader(
     if (!is_finite3(desc->specular_color)) return ARGUMENT(error, "specular_color is not finite");
     if (!isfinite(desc->exponent)) return ARGUMENT(error, "exponent is not finite");
     GiShader shader = {
+        .texture = GI_NONE,
+        .substrate = GI_NONE,
         .type = desc->type,
         .diffuse_given = true,
         .diffuse = gi_vec_from(desc->diffuse_color),
@@ -499,10 +502,15 @@ GlintStatus glint_render(
         area.crop_height > area.height - area.y) {
         return ARGUMENT(error, "the crop reaches outside of the picture");
     }
+    if (desc->light < -1 || desc->light > (int)scene->model.lights.count) {
+        return ARGUMENT(error, "there is no such light");
+    }
     double start = gi_machine_seconds();
     GiRenderCounts counts = {0};
+    const GiRenderTarget target = {
+        pixels, desc->depth, desc->normal, desc->albedo, desc->surface, desc->light};
     GlintStatus status =
-        gi_render(&scene->world, scene->pool, &area, desc->monitor, pixels, &counts);
+        gi_render(&scene->world, scene->pool, &area, desc->monitor, &target, &counts);
     scene->stats.trace_seconds = gi_machine_seconds() - start;
     scene->stats.camera_rays = counts.camera_rays;
     scene->stats.shadow_rays = counts.shadow_rays;
@@ -512,7 +520,7 @@ GlintStatus glint_render(
 
 static GiTraceRay trace_ray(const GlintRay *ray) {
     return (GiTraceRay){gi_vec_from(ray->origin), gi_vec_from(ray->direction), ray->t_min,
-        ray->t_max, GI_SHAPE_NONE};
+        ray->t_max, GI_SHAPE_NONE, GI_SHAPE_NONE};
 }
 
 bool glint_trace(const GlintScene *scene, const GlintRay *ray, GlintHit *hit) {
@@ -522,9 +530,9 @@ bool glint_trace(const GlintScene *scene, const GlintRay *ray, GlintHit *hit) {
     GiTraceRay inner = trace_ray(ray);
     GiTraceHit found;
     if (!scene->kernel->closest(&world->trace, &inner, &found)) return false;
-    GiSurfacePoint at = gi_shape_point(&world->shapes, found.shape, inner.origin, inner.direction,
-        found.t, world->rules->cone_geometric);
-    const GiShapeInfo *info = gi_shape_info(&world->shapes, found.shape);
+    GiSurfacePoint at = gi_shape_point(&world->shapes, found.shape, found.instance, inner.origin,
+        inner.direction, found.t, world->rules->cone_geometric);
+    const GiShapeInfo *info = gi_shape_info(&world->shapes, found.shape, found.instance);
     *hit = (GlintHit){
         .t = found.t,
         .point = {at.point.x, at.point.y, at.point.z},

@@ -15,17 +15,18 @@ port:
 sample:
 sched: port
 shape:
+mesh: shape sched port
 image: sched port
 light: image port
 texture: port
-scene: shape light texture port
+scene: mesh shape light texture port
 accel: shape sched port
 kernel: accel shape port
 shade: scene shape light texture
 camera: scene
-reader: scene shape light texture port
+reader: scene mesh shape light texture port
 render: sample light texture shade camera kernel accel image sched scene shape port
-glint.c: sample light texture render reader scene image accel kernel shape shade camera sched port
+glint.c: sample light texture mesh render reader scene image accel kernel shape shade camera sched port
 '
 
 found=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' src --include='*.[ch]')

@@ -15,8 +15,30 @@
 
 /* clang-format off */
 #define ROOMS(X) \
-    X(base) X(math) X(sample) X(reader) X(malformed) X(hit) X(shape) X(kernel) X(image) X(exr) \
-    X(file) X(light) X(texture) X(radiance) X(render) X(golden) X(api) X(load) X(life)
+    X(base) \
+    X(math) \
+    X(elementary) \
+    X(sample) \
+    X(mesh) \
+    X(reader) \
+    X(malformed) \
+    X(hit) \
+    X(shape) \
+    X(kernel) \
+    X(image) \
+    X(file) \
+    X(light) \
+    X(texture) \
+    X(radiance) \
+    X(bsdf) \
+    X(sampling) \
+    X(scatter) \
+    X(render) \
+    X(golden) \
+    X(api) \
+    X(load) \
+    X(life) \
+    X(exr)
 /* clang-format on */
 
 #define DECLARE(room) extern const GiTest tests_##room[];

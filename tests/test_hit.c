@@ -203,7 +203,7 @@ static bool slope_at(const Fixture *f, GiShapeRef ref, RealVec p, RealVec *norma
 
 static void check_surface(
     Tally *tally, const Fixture *f, GiShapeRef ref, GiVec o, GiVec d, double t, Real expected) {
-    GiSurfacePoint at = gi_shape_point(&f->shapes, ref, o, d, t, true);
+    GiSurfacePoint at = gi_shape_point(&f->shapes, ref, GI_SHAPE_NONE, o, d, t, true);
     if (fabs(gi_length(at.normal) - 1) > 1e-15) {
         complain(tally, f, ref, o, d, "normal's length", gi_length(at.normal), 1);
     }
@@ -223,7 +223,7 @@ static void check_surface(
     if (!(height <= most)) {
         complain(tally, f, ref, o, d, "point's height over the surface", height, most);
     }
-    GiBox box = gi_shape_bounds(&f->shapes, ref);
+    GiBox box = gi_shape_bounds(&f->shapes, ref, GI_SHAPE_NONE);
     double e = at.error;
     if (at.point.x < box.low.x - e || at.point.y < box.low.y - e || at.point.z < box.low.z - e ||
         at.point.x > box.high.x + e || at.point.y > box.high.y + e || at.point.z > box.high.z + e) {
@@ -247,7 +247,7 @@ static bool compare(
 }
 
 static GiVec ray_toward(const Fixture *f, Random *random, GiShapeRef ref, GiVec *origin) {
-    GiBox box = gi_shape_bounds(&f->shapes, ref);
+    GiBox box = gi_shape_bounds(&f->shapes, ref, GI_SHAPE_NONE);
     if (!isfinite(box.low.x)) {
         GiVec reach = gi_vec(f->size, f->size, f->size);
         box = (GiBox){gi_sub(f->at, reach), gi_add(f->at, reach)};
@@ -285,7 +285,7 @@ static void compare_many(GiVec at, double size, bool entering_only, int rays) {
         double t;
         if (!compare(&tally, &f, ref, origin, d, 0, &t)) continue;
         /* Onward from the surface, in any direction but those that graze. */
-        GiSurfacePoint p = gi_shape_point(&f.shapes, ref, origin, d, t, true);
+        GiSurfacePoint p = gi_shape_point(&f.shapes, ref, GI_SHAPE_NONE, origin, d, t, true);
         GiVec onward = direction_of(&random);
         if (fabs(gi_dot(onward, p.normal)) < 0.05 * gi_length(onward)) continue;
         compare(&tally, &f, ref, p.point, onward, p.error / gi_length(onward), &t);

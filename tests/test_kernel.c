@@ -111,14 +111,15 @@ static bool brute_force(const Fixture *fixture, const GiTraceRay *r, GiTraceHit 
     const GiShapes *shapes = &fixture->world.shapes;
     gi_hit_Ray ray = gi_hit_ray(
         r->origin.x, r->origin.y, r->origin.z, r->direction.x, r->direction.y, r->direction.z);
-    *hit = (GiTraceHit){INFINITY, {GI_SHAPE_NONE}};
+    *hit = (GiTraceHit){INFINITY, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
     for (size_t i = 0; i < fixture->count; i++) {
         double t;
         GiShapeRef ref = fixture->refs[i];
         if (ref.bits == r->skip || !gi_hit_shape(shapes, ref, &ray, r->t_min, r->t_max, &t))
             continue;
-        if (t < hit->t || (t == hit->t && gi_shape_before(shapes, ref, hit->shape))) {
-            *hit = (GiTraceHit){t, ref};
+        if (t < hit->t || (t == hit->t && gi_shape_before(shapes, ref, GI_SHAPE_NONE, hit->shape,
+                                              hit->instance))) {
+            *hit = (GiTraceHit){t, ref, GI_SHAPE_NONE};
         }
     }
     return hit->shape.bits != GI_SHAPE_NONE;
@@ -127,7 +128,8 @@ static bool brute_force(const Fixture *fixture, const GiTraceRay *r, GiTraceHit 
 /* ---------------------------------------------------------------- rays */
 
 static GiTraceRay random_ray(const Fixture *fixture, Random *random, GiVec at, double size) {
-    GiTraceRay ray = {.t_min = 0, .t_max = INFINITY, .skip = GI_SHAPE_NONE};
+    GiTraceRay ray = {
+        .t_min = 0, .t_max = INFINITY, .skip = GI_SHAPE_NONE, .skip_instance = GI_SHAPE_NONE};
     ray.origin = gi_add(at, random_vec(random, -2 * size, 2 * size));
     ray.direction = random_vec(random, -1, 1);
     switch (random_below(random, 10)) {
@@ -205,6 +207,7 @@ static void compare_bundle(const Fixture *fixture, const GiKernel *kernel, Rando
         bundle.t_min[i] = any ? 1e-9 : 0;
         bundle.t_max[i] = any ? 1 : INFINITY;
         bundle.skip[i] = any && i % 7 == 0 ? fixture->refs[i % fixture->count].bits : GI_SHAPE_NONE;
+        bundle.skip_instance[i] = GI_SHAPE_NONE;
     }
     if (any) {
         kernel->bundle_any(&fixture->world.trace, &bundle);
@@ -214,7 +217,7 @@ static void compare_bundle(const Fixture *fixture, const GiKernel *kernel, Rando
     for (int i = 0; i < bundle.count; i++) {
         GiTraceRay ray = {{bundle.ox[i], bundle.oy[i], bundle.oz[i]},
             {bundle.dx[i], bundle.dy[i], bundle.dz[i]}, bundle.t_min[i], bundle.t_max[i],
-            bundle.skip[i]};
+            bundle.skip[i], bundle.skip_instance[i]};
         GiTraceHit expected;
         bool hits = brute_force(fixture, &ray, &expected);
         bool found = bundle.shape[i] != GI_SHAPE_NONE;
@@ -371,7 +374,7 @@ static void empty_scene(void) {
         bundle.dx[i] = i * 0.001;
         bundle.dz[i] = 1;
         bundle.t_max[i] = INFINITY;
-        bundle.skip[i] = GI_SHAPE_NONE;
+        bundle.skip[i] = bundle.skip_instance[i] = GI_SHAPE_NONE;
     }
     gi_kernel_at(0)->bundle_closest(&fixture.world.trace, &bundle);
     for (int i = 0; i < 100; i++) CHECK(bundle.shape[i] == GI_SHAPE_NONE);

@@ -316,7 +316,7 @@ static void environment_refused(void) {
 /* ---------------------------------------------------------------- rectangles */
 
 static void rectangle_frame(void) {
-    GiRectangle r;
+    GiLightRectangle r;
     CHECK(gi_rectangle_init(
         &r, gi_vec(1, 2, 3), gi_vec(0, 0, -2), gi_vec(0, 5, 1), 4, 6)); /* up leans */
     CHECK(same(r.front, gi_vec(0, 0, -1)));
@@ -338,7 +338,7 @@ static void rectangle_frame(void) {
 
 /* The factors average to the solid angle; seen from the axis that is 4 asin(...). */
 static void rectangle_solid_angle(void) {
-    GiRectangle r;
+    GiLightRectangle r;
     CHECK(gi_rectangle_init(&r, gi_vec(0, 0, 1.5), gi_vec(0, 0, -1), gi_vec(1, 2, 0), 2.4, 0.6));
     enum { COUNT = 1 << 16 };
     double mean = 0, a = 1.2, b = 0.3, d = 1.5;

@@ -83,6 +83,31 @@ static void numbers(void) {
     }
 }
 
+/* Every count of digits on both sides of the point, and whatever may follow. */
+static void digits_and_places(void) {
+    static const char *const tails[] = {"", " ", " 123456789", ".5", "e", "x", "-1.5", "\xb2\xb3"};
+    for (int whole = 0; whole <= 11; whole++) {
+        for (int places = 0; places <= 11; places++) {
+            if (whole + places == 0) continue;
+            char number[32], text[64];
+            snprintf(text, sizeof text, "%llu",
+                (unsigned long long)(next_random() % 90000000000 + 10000000000));
+            snprintf(number, sizeof number, "%s%.*s%s%.*s", places % 3 == 0 ? "-" : "", whole,
+                "98765432109", places > 0 ? "." : "", places, text);
+            check_number(number);
+            double expected = strtod(number, NULL), value;
+            for (size_t i = 0; i < sizeof tails / sizeof tails[0]; i++) {
+                if (tails[i][0] == '.' && places == 0) continue;
+                size_t used;
+                snprintf(text, sizeof text, "%s%s", number, tails[i]);
+                CHECK_INT(gi_number_read(text, strlen(text), &value, &used), GI_NUMBER_OK);
+                CHECK_INT(used, strlen(number));
+                CHECK_NEAR(value, expected, 0);
+            }
+        }
+    }
+}
+
 static void not_numbers(void) {
     static const char *const texts[] = {
         "", "+", "-", ".", "+.", "e1", ".e1", "inf", "nan", "--1", "+-1", "x"};
@@ -113,15 +138,39 @@ static void tables(void) {
         CHECK(e->help != NULL && e->help[0] != '\0');
         CHECK((e->kind == GI_KIND_CHOICE) == (e->choices != NULL));
         CHECK(e - gi_elements < GI_ELEMENT_LIMIT);
-        for (uint32_t bit = 1; bit <= e->contexts; bit <<= 1) {
-            if ((e->contexts & bit) != 0) CHECK(gi_element_find(&index, e->name, bit) == e);
+        for (int bit = 0; bit < 64; bit++) {
+            GiContexts context = e->contexts & GI_CONTEXT(bit);
+            if (context != 0) CHECK(gi_element_find(&index, e->name, context) == e);
         }
+        CHECK(e->type == NULL || gi_type_find(e->type, e->kind) != NULL);
+        CHECK(!e->required || e->default_text == NULL);
     }
     CHECK(gi_element_find(&index, "MINPT", GI_IN_BOX) != NULL);
     CHECK(gi_element_find(&index, "minPt", GI_IN_SPHERE) == NULL);
     for (const GiType *t = gi_types; t->name != NULL; t++) {
         CHECK(gi_type_find(t->name, t->kind) == t);
         CHECK((gi_kind_contexts(t->kind) & t->context) == t->context);
+    }
+    CHECK(GI_SLOT_COUNT <= 64);
+}
+
+/* Guesses, right and wrong ones, never change what is found. */
+static void guesses(void) {
+    static const struct {
+        const char *name;
+        uint64_t contexts;
+    } file[] = {{"shader", GI_IN_SCENE}, {"color", GI_IN_PHONG}, {"light", GI_IN_SCENE},
+        {"color", GI_IN_POINT_LIGHT}, {"surface", GI_IN_SCENE}, {"Shader", GI_IN_SPHERE},
+        {"radius", GI_IN_SPHERE}, {"radiu", GI_IN_SPHERE}, {"radius", GI_IN_BOX},
+        {"surface", GI_IN_SCENE}, {"minPt", GI_IN_BOX}, {"surface", GI_IN_GROUP},
+        {"shader", GI_IN_SPHERE}, {"shader", GI_IN_SCENE}, {"color", GI_IN_NORMAL_LIGHT}};
+    GiElementIndex index;
+    gi_element_index_init(&index);
+    for (size_t i = 0; i < 3 * sizeof file / sizeof file[0]; i++) {
+        const char *name = file[i % (sizeof file / sizeof file[0])].name;
+        uint64_t contexts = file[i % (sizeof file / sizeof file[0])].contexts;
+        const GiElement *found = gi_element_find(&index, name, contexts);
+        CHECK(gi_element_guess(&index, name, contexts) == found);
     }
 }
 
@@ -369,6 +418,7 @@ static void encodings(void) {
     unload();
 }
 
-const GiTest tests_reader[] = {TEST(numbers), TEST(not_numbers), TEST(tables), TEST(suggestions),
-    TEST(defaults), TEST(values), TEST(last_one_wins), TEST(comments_inside), TEST(cones),
-    TEST(names), TEST(groups), TEST(group_order), TEST(dialects), TEST(encodings), TEST_END};
+const GiTest tests_reader[] = {TEST(numbers), TEST(digits_and_places), TEST(not_numbers),
+    TEST(tables), TEST(guesses), TEST(suggestions), TEST(defaults), TEST(values),
+    TEST(last_one_wins), TEST(comments_inside), TEST(cones), TEST(names), TEST(groups),
+    TEST(group_order), TEST(dialects), TEST(encodings), TEST_END};

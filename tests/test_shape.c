@@ -58,14 +58,14 @@ static void bounds_are_tight(void) {
         const GiShapeRef refs[] = {gi_shape_ref(GI_SHAPE_SPHERE, i), gi_shape_ref(GI_SHAPE_CONE, i),
             gi_shape_ref(GI_SHAPE_CONE, SHAPES + i), gi_shape_ref(GI_SHAPE_DISC, i)};
         for (int k = 0; k < 4; k++) {
-            GiBox bounds = gi_shape_bounds(&f.shapes, refs[k]);
+            GiBox bounds = gi_shape_bounds(&f.shapes, refs[k], GI_SHAPE_NONE);
             GiBox expected = box_of_circles(&f, refs[k]);
             double size = gi_length(gi_sub(bounds.high, bounds.low));
             check_box(&bounds, &expected, 1e-13, 2e-6 * size);
         }
-        GiBox bounds = gi_shape_bounds(&f.shapes, gi_shape_ref(GI_SHAPE_BOX, i));
+        GiBox bounds = gi_shape_bounds(&f.shapes, gi_shape_ref(GI_SHAPE_BOX, i), GI_SHAPE_NONE);
         check_box(&bounds, &f.boxes[i], 0, 0);
-        bounds = gi_shape_bounds(&f.shapes, gi_shape_ref(GI_SHAPE_PLANE, i));
+        bounds = gi_shape_bounds(&f.shapes, gi_shape_ref(GI_SHAPE_PLANE, i), GI_SHAPE_NONE);
         CHECK(bounds.low.x == -INFINITY && bounds.high.z == INFINITY);
     }
     /* A sphere under a transform is an ellipsoid with bounds of its own. */
@@ -79,7 +79,7 @@ static void bounds_are_tight(void) {
             grow(&expected, gi_affine_point(&f.transforms[placement->transform].to_world,
                                 gi_along(sphere->center, n, sphere->radius)));
         }
-        GiBox bounds = gi_shape_bounds(&f.shapes, gi_shape_ref(GI_SHAPE_PLACED, i));
+        GiBox bounds = gi_shape_bounds(&f.shapes, gi_shape_ref(GI_SHAPE_PLACED, i), GI_SHAPE_NONE);
         double size = gi_length(gi_sub(bounds.high, bounds.low));
         check_box(&bounds, &expected, 1e-13, 2e-3 * size);
     }
@@ -130,7 +130,7 @@ static void check_sealed(GiVec at, double size, int rays) {
             continue;
         }
         tally.hits++;
-        GiSurfacePoint p = gi_shape_point(&f.shapes, ref, o, d, t, true);
+        GiSurfacePoint p = gi_shape_point(&f.shapes, ref, GI_SHAPE_NONE, o, d, t, true);
         if (!(gi_dot(p.normal, d) > -1e-6)) {
             complain(&tally, &f, ref, o, d, "leaves against the normal", gi_dot(p.normal, d), t);
         }
@@ -193,7 +193,8 @@ static void edges_are_closed(void) {
             if (!gi_hit_shape(&f.shapes, ref, &ray, 0, INFINITY, &t)) {
                 complain(&tally, &f, ref, inside, d, "slips out through an edge", 0, 0);
             } else {
-                GiSurfacePoint p = gi_shape_point(&f.shapes, ref, inside, d, t, true);
+                GiSurfacePoint p =
+                    gi_shape_point(&f.shapes, ref, GI_SHAPE_NONE, inside, d, t, true);
                 if (!(gi_dot(p.normal, d) > 0)) {
                     complain(&tally, &f, ref, inside, d, "normal at an edge", p.normal.z, t);
                 }
@@ -214,7 +215,7 @@ static GiVec normal_alone(
     const GiShapes *shapes, GiShapeKind kind, GiVec o, GiVec d, bool geometric) {
     double t;
     if (!hit_alone(shapes, kind, o, d, &t)) return gi_vec(NAN, NAN, NAN);
-    return gi_shape_point(shapes, gi_shape_ref(kind, 0), o, d, t, geometric).normal;
+    return gi_shape_point(shapes, gi_shape_ref(kind, 0), GI_SHAPE_NONE, o, d, t, geometric).normal;
 }
 
 static void check_vec(int line, GiVec a, double x, double y, double z) {

@@ -245,6 +245,12 @@ typedef enum GlintShaderType {
     GLINT_SHADER_COOK_TORRANCE
 } GlintShaderType;
 
+/* What a texture shows beyond its picture. */
+typedef enum GlintWrap {
+    GLINT_WRAP_REPEAT, /* the picture again */
+    GLINT_WRAP_CLAMP   /* its edge */
+} GlintWrap;
+
 typedef struct GlintShaderDesc {
     GlintShaderType type;
     double diffuse_color[3];  /* 1 1 1 */
@@ -350,6 +356,16 @@ typedef struct GlintRenderDesc {
     int width, height;           /* 0 (default): the scene's */
     int crop_x, crop_y;          /* top left corner of the part to draw; 0 */
     int crop_width, crop_height; /* 0 (default): all that is right of and below the corner */
+    /* Light of one kind only: 0 (default): all; k > 0: of the k-th light, in the order of the
+     * scene; -1: what comes from none of them (background, environment, RGBNormals). Up to
+     * rounding, these parts sum up to the whole. */
+    int light;
+    /* Where to put what the camera rays met, a value a pixel in the order of the pixels; each may
+     * be null (default). Means over the samples of a pixel, but for the surface. */
+    float *depth;      /* distance from the origin of the ray; 0 where it meets nothing */
+    float *normal;     /* 3 a pixel: the normal that is shaded with; 0 0 0 where nothing is met */
+    float *albedo;     /* 3 a pixel: the diffuse colour, textures included */
+    uint32_t *surface; /* GlintSurfaceId of the first sample's surface; 0: none */
     const GlintMonitor *monitor; /* null */
     int cookie;
 } GlintRenderDesc;

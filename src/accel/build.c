@@ -60,13 +60,24 @@ static inline GiFour center_of(const GiBuildItem *item) {
     return gi_four_add(gi_four_load(item->low), gi_four_load(item->high));
 }
 
+static inline void grow_item(Bounds *bounds, Bounds *centers, const GiBuildItem *item) {
+    GiFour center = center_of(item);
+    grow(bounds, gi_four_load(item->low), gi_four_load(item->high));
+    grow(centers, center, center);
+}
+
+/* Two bounds at once, since each step has to wait for the one before it. */
 static void bound_items(const GiBuildItem *items, size_t count, Bounds *bounds, Bounds *centers) {
     Bounds all = empty_bounds(), middle = empty_bounds();
-    for (size_t i = 0; i < count; i++) {
-        GiFour center = center_of(&items[i]);
-        grow(&all, gi_four_load(items[i].low), gi_four_load(items[i].high));
-        grow(&middle, center, center);
+    Bounds all2 = empty_bounds(), middle2 = empty_bounds();
+    size_t i = 0;
+    for (; i + 2 <= count; i += 2) {
+        grow_item(&all, &middle, &items[i]);
+        grow_item(&all2, &middle2, &items[i + 1]);
     }
+    if (i < count) grow_item(&all, &middle, &items[i]);
+    grow(&all, all2.low, all2.high);
+    grow(&middle, middle2.low, middle2.high);
     *bounds = all;
     *centers = middle;
 }

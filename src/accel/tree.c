@@ -25,7 +25,7 @@ static GiVec median_center(const GiShapes *shapes, const GiShapeRef *refs, size_
     double samples[3][SAMPLE];
     size_t found = 0, step = count / SAMPLE + 1;
     for (size_t i = 0; i < count && found < SAMPLE; i += step) {
-        GiBox box = gi_shape_bounds(shapes, refs[i]);
+        GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
         if (!box_is_finite(&box)) continue;
         samples[0][found] = box.low.x / 2 + box.high.x / 2;
         samples[1][found] = box.low.y / 2 + box.high.y / 2;
@@ -47,11 +47,13 @@ typedef struct Prepare {
     GiBuildItem *items;
 } Prepare;
 
+static inline double larger(double a, double b) { return a > b ? a : b; } /* fmax is a call */
+
 static double largest_component(const GiBox *box, GiVec center) {
     GiVec low = gi_sub(box->low, center), high = gi_sub(box->high, center);
-    double x = fmax(fabs(low.x), fabs(high.x)), y = fmax(fabs(low.y), fabs(high.y)),
-           z = fmax(fabs(low.z), fabs(high.z));
-    return fmax(x, fmax(y, z));
+    double x = larger(fabs(low.x), fabs(high.x)), y = larger(fabs(low.y), fabs(high.y)),
+           z = larger(fabs(low.z), fabs(high.z));
+    return larger(x, larger(y, z));
 }
 
 /* Boxes in kernel space, grown by the error bound (layout.h). */
@@ -59,7 +61,7 @@ static void prepare_items(void *context, size_t begin, size_t end, int worker) {
     (void)worker;
     const Prepare *prepare = context;
     for (size_t i = begin; i < end; i++) {
-        GiBox box = gi_shape_bounds(prepare->shapes, prepare->refs[i]);
+        GiBox box = gi_shape_bounds(prepare->shapes, prepare->refs[i], GI_SHAPE_NONE);
         double growth = GI_TREE_GROWTH * largest_component(&box, prepare->center) +
                         GI_TREE_GROWTH_LEAST / prepare->scale;
         const GiVec reach = {growth, growth, growth};
@@ -111,7 +113,7 @@ static uint32_t emit_spheres(Layout *layout, const GiBuildNode *leaf) {
         const GiSphere *sphere = &layout->shapes->spheres[gi_shape_index(ref)];
         GiVec center = gi_scale(gi_sub(sphere->center, layout->center), layout->scale);
         double radius = sphere->radius * layout->scale;
-        double farthest = fmax(fabs(center.x), fmax(fabs(center.y), fabs(center.z))) + radius;
+        double farthest = larger(fabs(center.x), larger(fabs(center.y), fabs(center.z))) + radius;
         block->center[0][i] = (float)center.x;
         block->center[1][i] = (float)center.y;
         block->center[2][i] = (float)center.z;
@@ -133,6 +135,16 @@ static uint32_t emit_boxes(Layout *layout, const GiBuildNode *leaf) {
         block->shape[i].bits = item != NULL ? gi_build_id(item) : GI_SHAPE_NONE;
     }
     return GI_CHILD_BLOCK | tree->box_block_count++;
+}
+
+/* The items of a leaf lie anywhere in the array of spheres: without this, emit_spheres waits for
+ * memory more than for all else. */
+static void fetch_leaf(const Layout *layout, const GiBuildNode *node) {
+    for (uint32_t i = 0; i < node->count; i++) {
+        GiShapeRef ref = {gi_build_id(&layout->items[node->first + i])};
+        if (gi_shape_kind(ref) != GI_SHAPE_SPHERE) continue;
+        __builtin_prefetch(&layout->shapes->spheres[gi_shape_index(ref)]);
+    }
 }
 
 static void add_cost(Layout *layout, const GiBuildNode *node) {
@@ -178,6 +190,7 @@ static uint32_t emit(Layout *layout, uint32_t index) {
         }
         node->child[i] = GI_CHILD_NONE;
     }
+    for (int i = 0; i < count; i++) fetch_leaf(layout, &nodes[children[i]]);
     for (int i = 0; i < count; i++) {
         uint32_t child = emit(layout, children[i]);
         layout->store->nodes[node_index].child[i] = child;
@@ -227,9 +240,9 @@ static GlintStatus sort_out(GiMemory *memory, const GiShapes *shapes, const GiSh
     double reach = 0;
     size_t unbounded = 0;
     for (size_t i = 0; i < count; i++) {
-        GiBox box = gi_shape_bounds(shapes, refs[i]);
+        GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
         if (box_is_finite(&box)) {
-            reach = fmax(reach, largest_component(&box, store->tree.center));
+            reach = larger(reach, largest_component(&box, store->tree.center));
         } else {
             unbounded++;
         }
@@ -239,7 +252,7 @@ static GlintStatus sort_out(GiMemory *memory, const GiShapes *shapes, const GiSh
         store->unbounded = gi_memory_allocate(memory, unbounded * sizeof *store->unbounded);
         if (store->unbounded == NULL) return GLINT_ERROR_MEMORY;
         for (size_t i = 0; i < count; i++) {
-            GiBox box = gi_shape_bounds(shapes, refs[i]);
+            GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
             if (!box_is_finite(&box)) {
                 store->unbounded[store->tree.unbounded_count++] = refs[i];
             }
@@ -270,7 +283,7 @@ GlintStatus gi_tree_build(GiMemory *memory, GiPool *pool, const GiShapes *shapes
         if (item_count < count) { /* rare: drop the unbounded, keeping the order */
             size_t kept = 0;
             for (size_t i = 0; i < count; i++) {
-                GiBox box = gi_shape_bounds(shapes, refs[i]);
+                GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
                 if (box_is_finite(&box)) items[kept++] = items[i];
             }
         }

@@ -16,9 +16,11 @@ bool gi_array_reserve_bytes(
         size_t count, capacity;                                                                    \
     }
 
+/* An expression that evaluates its arguments more than once: mostly there is room, and no call. */
 #define gi_array_reserve(memory, array, more)                                                      \
-    gi_array_reserve_bytes((memory), (void **)&(array)->data, &(array)->capacity, (array)->count,  \
-        (more), sizeof *(array)->data)
+    ((size_t)(more) <= (array)->capacity - (array)->count ||                                       \
+        gi_array_reserve_bytes((memory), (void **)&(array)->data, &(array)->capacity,              \
+            (array)->count, (more), sizeof *(array)->data))
 
 /* Appends one element, by value. An expression: false when memory is short. */
 #define gi_array_push(memory, array, ...)                                                          \

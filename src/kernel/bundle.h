@@ -53,7 +53,8 @@ static inline void resolve_ties(Tile *tile, GiShapeRef ref, int i, unsigned bits
     for (; bits != 0; bits &= bits - 1) {
         uint32_t *shape = &tile->bundle->shape[i + lowest_bit(bits)];
         if (*shape != GI_SHAPE_NONE &&
-            gi_shape_before(tile->trace->shapes, ref, (GiShapeRef){*shape})) {
+            gi_shape_before(tile->trace->shapes, ref, GI_SHAPE_NONE, (GiShapeRef){*shape},
+                tile->bundle->instance[i + lowest_bit(bits)])) {
             *shape = ref.bits;
         }
     }
@@ -219,6 +220,7 @@ static inline GiTraceRay bundle_ray(const GiBundle *bundle, int i) {
         bundle->t_min[i],
         bundle->t_max[i],
         bundle->skip[i],
+        bundle->skip_instance[i],
     };
 }
 
@@ -235,7 +237,9 @@ static inline void bundle_trace(const GiTrace *trace, GiBundle *bundle, bool any
     tile.test_count = tile.tests_made = 0;
     tile.stopped = false;
     for (int i = 0; i < GI_BUNDLE_SIZE / 32; i++) tile.inverse_known[i] = 0;
-    for (int i = 0; i < GI_BUNDLE_SIZE; i++) bundle->shape[i] = GI_SHAPE_NONE;
+    for (int i = 0; i < GI_BUNDLE_SIZE; i++) {
+        bundle->shape[i] = bundle->instance[i] = GI_SHAPE_NONE;
+    }
     GiVec u, v, w;
     if (bundle->count >= TILE_MINIMUM && tile_frame(bundle, toward, &u, &v, &w)) {
         tile_pad(bundle);
@@ -254,7 +258,9 @@ static inline void bundle_trace(const GiTrace *trace, GiBundle *bundle, bool any
         GiTraceHit hit;
         if (any ? line_trace(trace, &ray, true, &hit) : line_trace(trace, &ray, false, &hit)) {
             bundle->shape[i] = any ? 0 : hit.shape.bits;
-            if (!any) bundle->t[i] = hit.t;
+            if (any) continue;
+            bundle->t[i] = hit.t;
+            bundle->instance[i] = hit.instance;
         }
     }
 }

@@ -65,7 +65,7 @@ static inline void tile_pad(GiBundle *bundle) {
         bundle->dz[i] = bundle->dz[0];
         bundle->t_min[i] = 1;
         bundle->t_max[i] = 0;
-        bundle->skip[i] = GI_SHAPE_NONE;
+        bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
     }
 }
 

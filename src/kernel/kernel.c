@@ -16,6 +16,8 @@
 #include "kernel/single.h"
 #include "kernel/frustum.h"
 #include "kernel/bundle.h"
+#include "kernel/light.h"
+#include "kernel/regroup_order.h"
 
 extern const GiKernel GI_KERNEL(kernel);
 
@@ -25,4 +27,7 @@ const GiKernel GI_KERNEL(kernel) = {
     GI_KERNEL(any),
     GI_KERNEL(bundle_closest),
     GI_KERNEL(bundle_any),
+    GI_KERNEL(light),
+    GI_KERNEL(regroup_init),
+    GI_KERNEL(regroup),
 };

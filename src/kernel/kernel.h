@@ -8,6 +8,8 @@
 #pragma once
 
 #include "accel/layout.h"
+#include "kernel/points.h"
+#include "kernel/regroup.h"
 
 typedef struct GiTrace {
     const GiTree *tree;
@@ -17,12 +19,15 @@ typedef struct GiTrace {
 typedef struct GiTraceRay {
     GiVec origin, direction; /* any length but zero */
     double t_min, t_max;
-    uint32_t skip; /* bits of a shape that the ray does not meet, or GI_SHAPE_NONE */
+    /* What the ray does not meet: bits of a shape, or GI_SHAPE_NONE, and its instance, or
+     * GI_SHAPE_NONE. */
+    uint32_t skip, skip_instance;
 } GiTraceRay;
 
 typedef struct GiTraceHit {
     double t;
     GiShapeRef shape;
+    uint32_t instance; /* that the shape was met in, or GI_SHAPE_NONE */
 } GiTraceHit;
 
 /* Up to 1024 rays whose lines pass through one point, traced together. Neighbours in the arrays,
@@ -30,7 +35,8 @@ typedef struct GiTraceHit {
  *     closest   the rays start at the apex (camera rays)
  *     any       the rays end there: origin + direction is the apex, t_max at most 1 (shadow rays
  *               of a point light)
- * In: everything up to skip. Out: shape (GI_SHAPE_NONE: nothing met) and, for closest, t. */
+ * In: everything up to skip_instance. Out: shape (GI_SHAPE_NONE: nothing met) and, for closest,
+ * instance and t. */
 enum {
     GI_BUNDLE_SIZE = 1024,
     GI_PACKET_SIZE = 16,
@@ -42,9 +48,9 @@ typedef struct GiBundle {
     double oy[GI_BUNDLE_SIZE], oz[GI_BUNDLE_SIZE];
     double dx[GI_BUNDLE_SIZE], dy[GI_BUNDLE_SIZE], dz[GI_BUNDLE_SIZE];
     double t_min[GI_BUNDLE_SIZE], t_max[GI_BUNDLE_SIZE];
-    uint32_t skip[GI_BUNDLE_SIZE];
+    uint32_t skip[GI_BUNDLE_SIZE], skip_instance[GI_BUNDLE_SIZE];
     double t[GI_BUNDLE_SIZE];
-    uint32_t shape[GI_BUNDLE_SIZE];
+    uint32_t shape[GI_BUNDLE_SIZE], instance[GI_BUNDLE_SIZE];
     int count; /* 1 to GI_BUNDLE_SIZE */
     GiVec apex;
     GiVec side; /* a direction the packets are aligned with; zero: none known */
@@ -64,6 +70,13 @@ typedef struct GiKernel {
     bool (*any)(const GiTrace *trace, const GiTraceRay *ray);
     void (*bundle_closest)(const GiTrace *trace, GiBundle *bundle);
     void (*bundle_any)(const GiTrace *trace, GiBundle *bundle);
+    /* Appends to *lit what the light adds to the points begin to end - 1, all of one shader, where
+     * it is not nothing, as shade/shade.h has it to the last bit. */
+    void (*light)(const GiPoints *points, int begin, int end, const GiPointLight *light,
+        const GiGloss *gloss, GiLit *lit);
+    void (*regroup_init)(GiRegroup *regroup); /* once */
+    /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT. */
+    void (*regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z, int count);
 } GiKernel;
 
 /* The kernels this build has and this machine can run, fastest first; null at the end. */

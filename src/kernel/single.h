@@ -145,7 +145,7 @@ static inline void line_test(const Line *line, GiShapeRef ref, GiTraceHit *best)
     if (!gi_hit_shape(line->trace->shapes, ref, &line->ray, line->t_min, line->t_max, &t)) return;
     if (t > best->t) return;
     if (t == best->t && best->shape.bits != GI_SHAPE_NONE &&
-        !gi_shape_before(line->trace->shapes, ref, best->shape)) {
+        !gi_shape_before(line->trace->shapes, ref, GI_SHAPE_NONE, best->shape, best->instance)) {
         return;
     }
     best->t = t;
@@ -156,7 +156,7 @@ static inline bool line_trace(
     const GiTrace *trace, const GiTraceRay *r, bool any, GiTraceHit *hit) {
     const GiTree *tree = trace->tree;
     Line line = line_of(trace, r);
-    GiTraceHit best = {r->t_max, {GI_SHAPE_NONE}};
+    GiTraceHit best = {r->t_max, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
     for (uint32_t i = 0; i < tree->unbounded_count; i++) {
         line_test(&line, tree->unbounded[i], &best);
         if (any && best.shape.bits != GI_SHAPE_NONE) return true;

@@ -183,6 +183,20 @@ static inline void r_store_floats(float *p, R a) { _mm256_storeu_ps(p, _mm512_cv
 static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
     _mm256_mask_storeu_epi32(p, (__mmask8)bits, _mm256_set1_epi32((int)value));
 }
+#define R_ABS(a) _mm512_abs_pd(a)
+/* Writes the lanes whose bits are set one after the other; there must be room for all. */
+static inline void r_append(double *to, R a, unsigned bits) {
+    _mm512_storeu_pd(to, _mm512_maskz_compress_pd((__mmask8)bits, a));
+}
+static inline void r_append_floats(float *to, R a, unsigned bits) {
+    _mm256_storeu_ps(to, _mm256_maskz_compress_ps((__mmask8)bits, _mm512_cvtpd_ps(a)));
+}
+/* The same of base, base + 1, ... */
+static inline void u_append_indices(uint32_t *to, unsigned bits, uint32_t base) {
+    __m256i all =
+        _mm256_add_epi32(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32((int)base));
+    _mm256_storeu_si256((__m256i *)(void *)to, _mm256_maskz_compress_epi32((__mmask8)bits, all));
+}
 #elif defined(GI_IS_AVX2)
 enum { GI_DOUBLES = 4 };
 #define R                  __m256d
@@ -198,6 +212,7 @@ enum { GI_DOUBLES = 4 };
 #define R_SELECT(m, a, b)  _mm256_blendv_pd(b, a, _mm256_castsi256_pd(m))
 #define M_OF(x)            _mm256_set1_epi64x(-(long long)(x))
 #define M_NOT(m)           (~(m))
+#define R_ABS(a)           _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
 static inline unsigned m_bits(M m) { return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(m)); }
 static inline R r_load(const double *p) { return _mm256_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm256_storeu_pd(p, a); }
@@ -217,6 +232,7 @@ enum { GI_DOUBLES = 2 };
 #define R_SELECT(m, a, b)  r_select(m, a, b)
 #define M_OF(x)            _mm_set1_epi64x(-(long long)(x))
 #define M_NOT(m)           (~(m))
+#define R_ABS(a)           _mm_andnot_pd(_mm_set1_pd(-0.0), a)
 static inline R r_select(M m, R a, R b) {
     return _mm_castsi128_pd(
         _mm_or_si128(_mm_and_si128(m, M_FROM(a)), _mm_andnot_si128(m, M_FROM(b))));
@@ -241,6 +257,7 @@ enum { GI_DOUBLES = 1 };
 #define R_SELECT(m, a, b)  ((m) ? (a) : (b))
 #define M_OF(x)            ((int)(x))
 #define M_NOT(m)           (!(m))
+#define R_ABS(a)           fabs(a)
 static inline unsigned m_bits(M m) { return (unsigned)m; }
 static inline R r_load(const double *p) { return *p; }
 static inline void r_store(double *p, R a) { *p = a; }
@@ -260,6 +277,28 @@ static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
         if (bits >> i & 1) p[i] = value;
     }
 }
+static inline void r_append(double *to, R a, unsigned bits) {
+    double lane[GI_DOUBLES];
+    r_store(lane, a);
+    for (int i = 0; i < GI_DOUBLES; i++) {
+        *to = lane[i];
+        to += bits >> i & 1;
+    }
+}
+static inline void r_append_floats(float *to, R a, unsigned bits) {
+    float lane[GI_DOUBLES];
+    r_store_floats(lane, a);
+    for (int i = 0; i < GI_DOUBLES; i++) {
+        *to = lane[i];
+        to += bits >> i & 1;
+    }
+}
+static inline void u_append_indices(uint32_t *to, unsigned bits, uint32_t base) {
+    for (uint32_t i = 0; i < GI_DOUBLES; i++) {
+        *to = base + i;
+        to += bits >> i & 1;
+    }
+}
 #endif
 
 /* ---------------------------------------------------------------- bits, memory */
@@ -267,11 +306,17 @@ static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
 #if defined(__GNUC__)
 static inline void prefetch(const void *p) { __builtin_prefetch(p); }
 static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
+static inline int bit_count(unsigned bits) { return __builtin_popcount(bits); }
 #else
 static inline void prefetch(const void *p) { (void)p; }
 static inline int lowest_bit(unsigned bits) {
     int index = 0;
     while (!(bits >> index & 1)) index++;
     return index;
+}
+static inline int bit_count(unsigned bits) {
+    int count = 0;
+    for (; bits != 0; bits &= bits - 1) count++;
+    return count;
 }
 #endif

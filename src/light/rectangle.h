@@ -4,24 +4,24 @@
 
 #include "math/vec.h"
 
-typedef struct GiRectangle {
+typedef struct GiLightRectangle {
     GiVec center;
     GiVec across, upward; /* its two sides, with their lengths */
     GiVec front;          /* unit */
     double area;
-} GiRectangle;
+} GiLightRectangle;
 
 /* up need only point upward somehow; the rectangle stands across normal. False when the two are
  * parallel, or one is zero. */
 bool gi_rectangle_init(
-    GiRectangle *rectangle, GiVec center, GiVec normal, GiVec up, double width, double height);
+    GiLightRectangle *rectangle, GiVec center, GiVec normal, GiVec up, double width, double height);
 
 /* A point of the rectangle, evenly by area, and the factor that makes of its radiance the light
  * that it sends to `from`: the area times the cosine at the light over the square of the distance.
  * 0 when only the back is seen. */
 double gi_rectangle_sample(
-    const GiRectangle *rectangle, GiVec from, const double u[2], GiVec *point);
+    const GiLightRectangle *rectangle, GiVec from, const double u[2], GiVec *point);
 
 /* The density per solid angle of the above, for a point at `offset` from where it is seen from. 0
  * at the back. */
-double gi_rectangle_density(const GiRectangle *rectangle, GiVec offset);
+double gi_rectangle_density(const GiLightRectangle *rectangle, GiVec offset);

@@ -90,21 +90,142 @@ double gi_pow(double base, double exponent) {
            from_bits((uint64_t)(1023 + rest) << 52);
 }
 
-void gi_sincos_degrees(double degrees, double *sine, double *cosine) {
-    double turn = fmod(degrees, 360); /* exact by definition */
-    double quarter = floor(turn / 90 + 0.5);
-    double r = (turn - 90 * quarter) * 0.017453292519943295; /* |r| <= pi/4 */
+/* ---------------------------------------------------------------- exponential and logarithm */
+
+/* ln 2 in two parts; the first has 32 bits, so that its product with an exponent is exact. */
+static const double ln2_high = 0x1.62e42feep-1, ln2_low = 0x1.a39ef35793c76p-33;
+
+/* The sum of coefficient[i] x^i by Horner's scheme. */
+static double polynomial(const double *coefficient, int count, double x) {
+    double sum = coefficient[count - 1];
+    for (int i = count - 2; i >= 0; i--) sum = sum * x + coefficient[i];
+    return sum;
+}
+
+/* x = k ln 2 + r with |r| <= 0.347, and e^r = 1 + r + r^2 (1/2 + r/6 + ...). The first term left
+ * out, r^14 / 14!, is below 5e-18. */
+double gi_exp(double x) {
+    static const double series[] = {1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040,
+        1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600,
+        1.0 / 6227020800.0};
+    if (isnan(x)) return x;
+    if (x > 709.79) return INFINITY;
+    if (x < -745.14) return 0;
+    double k = floor(x * 1.4426950408889634 + 0.5);
+    double high = x - k * ln2_high, low = k * ln2_low;
+    double r = high - low;
+    double rest = (high - r) - low; /* what the rounding of r has lost */
+    double power = 1 + (r + (r * r * polynomial(series, 12, r) + rest));
+    /* Two factors, as in gi_pow. */
+    int half = (int)k / 2, other = (int)k - half;
+    return power * from_bits((uint64_t)(1023 + half) << 52) *
+           from_bits((uint64_t)(1023 + other) << 52);
+}
+
+/* x = 2^k (1 + f) with 1 + f in [0.707, 1.414]. With s = f / (2 + f) and q = s^2,
+ * log(1 + f) = 2 s + (2/3) s^3 + (2/5) s^5 + ... = f - (f^2 / 2 - s (f^2 / 2 + R)),
+ * R = 2/3 q + 2/5 q^2 + ..., where the large term f is exact. q < 0.0295; the first term left out
+ * is below 1e-18 of the sum. */
+double gi_log(double x) {
+    static const double series[] = {2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13,
+        2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21};
+    if (isnan(x) || x < 0) return NAN;
+    if (x == 0) return -INFINITY;
+    if (isinf(x)) return x;
+    int k = -1023;
+    if (x < 0x1p-1022) { /* subnormal */
+        x *= 0x1p54;
+        k -= 54;
+    }
+    k += (int)(bits_of(x) >> 52);
+    double m = from_bits((bits_of(x) & 0x000fffffffffffffu) | 0x3ff0000000000000u);
+    if (m > 1.4142135623730951) {
+        m *= 0.5;
+        k++;
+    }
+    double f = m - 1;
+    double s = f / (2 + f), q = s * s, half_square = 0.5 * f * f;
+    double correction =
+        half_square - (s * (half_square + q * polynomial(series, 10, q)) + k * ln2_low);
+    return k * ln2_high - (correction - f);
+}
+
+/* ---------------------------------------------------------------- angles */
+
+/* Sine and cosine of `quarter` right angles and r more, |r| <= 0.786, by their Taylor series; the
+ * terms left out are below 1e-18. */
+static void sincos_of_quarter(int quarter, double r, double *sine, double *cosine) {
+    static const double sine_series[] = {-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880,
+        -1.0 / 39916800, 1.0 / 6227020800.0, -1.0 / 1307674368000.0, 1.0 / 355687428096000.0};
+    static const double cosine_series[] = {1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800,
+        1.0 / 479001600, -1.0 / 87178291200.0, 1.0 / 20922789888000.0, -1.0 / 6402373705728000.0};
     double q = r * r;
-    /* Taylor series; the terms left out are below 1e-17. */
-    double s = 0, c = 0;
-    for (int n = 17; n >= 3; n -= 2) s = (1 + s) * (-q / (n * (n - 1)));
-    for (int n = 18; n >= 2; n -= 2) c = (1 + c) * (-q / (n * (n - 1)));
-    s = r * (1 + s);
-    c = 1 + c;
-    switch ((int)quarter & 3) {
+    double s = r + r * (q * polynomial(sine_series, 8, q));
+    double half = 0.5 * q, high = 1 - half;
+    double c = high + (((1 - high) - half) + q * q * polynomial(cosine_series, 8, q));
+    switch (quarter & 3) {
     case 0: *sine = s, *cosine = c; break;
     case 1: *sine = c, *cosine = -s; break;
     case 2: *sine = -s, *cosine = -c; break;
     default: *sine = -c, *cosine = s; break;
     }
 }
+
+void gi_sincos_degrees(double degrees, double *sine, double *cosine) {
+    double turn = fmod(degrees, 360); /* exact by definition */
+    double quarter = floor(turn / 90 + 0.5);
+    double r = (turn - 90 * quarter) * 0.017453292519943295; /* |r| <= pi/4 */
+    sincos_of_quarter((int)quarter, r, sine, cosine);
+}
+
+void gi_sincos(double x, double *sine, double *cosine) {
+    /* pi/2 in three parts (Cody and Waite 1980); the first two have 33 bits, so that their products
+     * with a quarter up to 2^20 are exact. */
+    static const double part[] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};
+    if (!(fabs(x) <= 1e6)) x = isinf(x) ? NAN : fmod(x, 6.2831853071795865);
+    if (isnan(x)) {
+        *sine = *cosine = x;
+        return;
+    }
+    double quarter = floor(x * 0.63661977236758134 + 0.5);
+    double r = ((x - quarter * part[0]) - quarter * part[1]) - quarter * part[2];
+    sincos_of_quarter((int)quarter, r, sine, cosine);
+}
+
+/* atan(y / x) for 0 <= y <= x. With c the nearest eighth to y / x,
+ * atan(y / x) = atan(c) + atan((y - c x) / (x + c y)), and what is left is at most 1/16 (a little
+ * more by rounding), where seven terms of the series do. */
+static double atan_of_octant(double y, double x) {
+    static const double atan_of_eighths[] = {0, 0.12435499454676144, 0.24497866312686414,
+        0.35877067027057225, 0.4636476090008061, 0.5585993153435624, 0.6435011087932844,
+        0.7188299996216245, 0.7853981633974483};
+    static const double series[] = {
+        -1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
+    int eighth = (int)(y / x * 8 + 0.5);
+    double c = eighth * 0.125;
+    double z = (y - c * x) / (x + c * y), q = z * z;
+    return atan_of_eighths[eighth] + (z + z * (q * polynomial(series, 7, q)));
+}
+
+double gi_atan2(double y, double x) {
+    if (isnan(x) || isnan(y)) return NAN;
+    if (isinf(x) || isinf(y)) { /* only who is infinite matters */
+        x = copysign(isinf(x) ? 1 : 0, x);
+        y = copysign(isinf(y) ? 1 : 0, y);
+    }
+    double a = fabs(x), b = fabs(y), largest = a > b ? a : b;
+    /* Sums and products of the two shall stay in the range of normal numbers. */
+    double scale = largest > 0x1p1000 ? 0x1p-100 : largest < 0x1p-900 ? 0x1p100 : 1;
+    a *= scale;
+    b *= scale;
+    double angle = 0;
+    if (largest > 0) angle = b <= a ? atan_of_octant(b, a) : atan_of_octant(a, b);
+    /* pi and pi/2 with what they lack. */
+    if (b > a) angle = 1.5707963267948966 - (angle - 6.1232339957367660e-17);
+    if (signbit(x)) angle = 3.1415926535897931 - (angle - 1.2246467991473532e-16);
+    return copysign(angle, y);
+}
+
+double gi_asin(double x) { return gi_atan2(x, sqrt((1 - x) * (1 + x))); }
+
+double gi_acos(double x) { return gi_atan2(sqrt((1 - x) * (1 + x)), x); }

@@ -3,7 +3,7 @@
  * file system or the machine cannot do that, the file has a temporary name from the beginning.
  * All names are relative to a descriptor of the folder, so a change of the current folder in
  * between does no harm and no path is ever put together. */
-#define _GNU_SOURCE /* O_TMPFILE, O_PATH */
+#define _GNU_SOURCE /* O_TMPFILE, O_PATH, madvise */
 #include "port/file.h"
 
 #include "base/error.h"
@@ -14,6 +14,7 @@
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -280,4 +281,76 @@ GlintStatus gi_file_read_status(const GiFileReader *reader, GlintError *error) {
 void gi_file_read_close(GiFileReader *reader) {
     if (reader->fd >= 0) close(reader->fd);
     reader->fd = -1;
+}
+
+/* ---------------------------------------------------------------- whole files */
+
+static GlintStatus read_all(
+    GiFileBytes *file, GiMemory *memory, GiFileReader *reader, GlintError *error) {
+    char *bytes = NULL;
+    GlintStatus status = GLINT_OK;
+    for (;;) {
+        if (is_cancelled(reader->monitor)) status = GLINT_CANCELLED;
+        size_t wanted = file->capacity;
+        if (file->size == wanted) wanted = wanted < 65536 ? 65536 : wanted * 2;
+        char *grown = wanted > file->capacity
+                          ? gi_memory_resize(memory, bytes, file->capacity, wanted)
+                          : bytes;
+        if (grown == NULL && status == GLINT_OK) status = gi_error_memory(error);
+        if (grown != NULL) {
+            bytes = grown;
+            file->capacity = wanted;
+        }
+        if (status != GLINT_OK) break;
+        int64_t count = gi_file_read(reader, bytes + file->size, file->capacity - file->size);
+        if (count < 0) status = gi_file_read_status(reader, error);
+        if (count < 0 && status == GLINT_OK) status = GLINT_CANCELLED;
+        if (count <= 0) break;
+        file->size += (size_t)count;
+    }
+    file->bytes = bytes;
+    if (status != GLINT_OK) gi_file_bytes_free(file, memory);
+    return status;
+}
+
+GlintStatus gi_file_bytes_load(GiFileBytes *file, GiMemory *memory, const char *path,
+    const GlintMonitor *monitor, GlintError *error) {
+    *file = (GiFileBytes){.bytes = NULL};
+    GiFileReader reader;
+    GlintStatus status = gi_file_read_open(&reader, path, error);
+    if (status != GLINT_OK) return status;
+    reader.monitor = monitor;
+    /* Some files of the system say that they have no bytes, and have. */
+    if (reader.size > 0 && (uint64_t)reader.size <= SIZE_MAX) {
+        void *mapped = mmap(NULL, (size_t)reader.size, PROT_READ, MAP_PRIVATE, reader.fd, 0);
+        if (mapped != MAP_FAILED) {
+            file->bytes = mapped;
+            file->size = (size_t)reader.size;
+        }
+    }
+    if (file->bytes == NULL) status = read_all(file, memory, &reader, error);
+    gi_file_read_close(&reader);
+    return status;
+}
+
+void gi_file_bytes_forget(const GiFileBytes *file, size_t begin, size_t end) {
+#ifdef MADV_DONTNEED
+    if (file->bytes == NULL || file->capacity > 0) return;
+    size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    begin = (begin + page - 1) / page * page;
+    end = end / page * page;
+    if (begin < end) madvise((void *)(uintptr_t)(file->bytes + begin), end - begin, MADV_DONTNEED);
+#else
+    (void)file, (void)begin, (void)end;
+#endif
+}
+
+void gi_file_bytes_free(GiFileBytes *file, GiMemory *memory) {
+    void *bytes = (void *)(uintptr_t)file->bytes;
+    if (file->capacity > 0) {
+        gi_memory_free(memory, bytes, file->capacity);
+    } else if (bytes != NULL) {
+        munmap(bytes, file->size);
+    }
+    *file = (GiFileBytes){.bytes = NULL};
 }

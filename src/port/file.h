@@ -7,7 +7,7 @@
  * /dev/stdout) is written directly, since it cannot be replaced. */
 #pragma once
 
-#include "glint/glint.h"
+#include "base/memory.h"
 
 typedef struct GiFileWriter {
     const char *path; /* as the caller gave it, for messages; must outlive the writer */
@@ -58,3 +58,22 @@ int64_t gi_file_read(void *reader, void *buffer, size_t size);
 GlintStatus gi_file_read_status(const GiFileReader *reader, GlintError *error);
 
 void gi_file_read_close(GiFileReader *reader);
+
+/* The bytes of a whole file. What is mapped is read when it is touched, and only what was not
+ * forgotten counts as memory in use. A file that another program cuts short meanwhile ends the
+ * process, as with all mapped files. */
+typedef struct GiFileBytes {
+    const char *bytes;
+    size_t size;
+    size_t capacity; /* of an allocated copy; 0 when the file is mapped */
+} GiFileBytes;
+
+/* Maps the file, or reads it where that cannot be done (a pipe). monitor may be null. Errors:
+ * FILE, MEMORY, CANCELLED; there is nothing to release then. */
+GlintStatus gi_file_bytes_load(GiFileBytes *file, GiMemory *memory, const char *path,
+    const GlintMonitor *monitor, GlintError *error);
+
+/* The bytes [begin, end) are not needed soon; they stay readable. */
+void gi_file_bytes_forget(const GiFileBytes *file, size_t begin, size_t end);
+
+void gi_file_bytes_free(GiFileBytes *file, GiMemory *memory);

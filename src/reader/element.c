@@ -8,7 +8,9 @@
 
 #define ROUND  (GI_IN_SPHERE | GI_IN_CYLINDER | GI_IN_CONE)
 #define FLAT   (GI_IN_PLANE | GI_IN_DISC)
-#define SHADED (GI_IN_LAMBERTIAN | GI_IN_PHONG)
+#define MATTE  (GI_IN_LAMBERTIAN | GI_IN_PHONG)
+#define FACETS (GI_IN_MICROFACET | GI_IN_MICROFACETS)
+#define BSDF   (GI_IN_LAMBERTIAN_BSDF | GI_IN_MICROFACET_BSDF)
 
 /* clang-format off */
 #define ROW(name, contexts, kind, slot, default_text, ...) \
@@ -17,7 +19,8 @@
 const GiElement gi_elements[] = {
     ROW("scene", 0, SCENE, NONE, NULL, .help = "the root element"),
 
-    ROW("camera", GI_IN_SCENE, CAMERA, NONE, NULL, .help = "the eye and its window"),
+    ROW("camera", GI_IN_SCENE, CAMERA, NONE, NULL, .type = "PerspectiveCamera",
+        .help = "the eye and its window"),
     ROW("image", GI_IN_SCENE | GI_IN_CAMERA, INTEGER_PAIR, IMAGE, NULL, GI_CHECK_IMAGE_SIZE,
         .help = "width and height in pixels"),
     ROW("surface", GI_IN_SCENE | GI_IN_GROUP, SURFACE, NONE, NULL, .help = "something to be seen"),
@@ -25,7 +28,20 @@ const GiElement gi_elements[] = {
         .help = "how a surface reflects light; in the scene: a definition to refer to"),
     ROW("material", GI_IN_SCENE | GI_IN_ANY_SURFACE, SHADER, NONE, NULL,
         .evidence = GI_EVIDENCE_MATERIAL, .alias_of = "shader", .help = "older word for shader"),
-    ROW("light", GI_IN_SCENE, LIGHT, NONE, NULL, .help = "a source of light"),
+    ROW("bsdf", GI_IN_SCENE | GI_IN_ANY_SURFACE, BSDF, NONE, NULL, .evidence = GI_EVIDENCE_BSDF,
+        .help = "the shader of 2018b"),
+    ROW("brdf", GI_IN_SCENE | GI_IN_MICROFACET, BRDF, BRDF, NULL, .required = true,
+        .evidence = GI_EVIDENCE_BRDF, .help = "how the microfacets are distributed"),
+    ROW("texture", GI_IN_SCENE | GI_IN_ANY_SHADER | GI_IN_ANY_BSDF, TEXTURE, TEXTURE, NULL,
+        .evidence = GI_EVIDENCE_EXPOSURE, .help = "a picture in the place of diffuseColor"),
+    ROW("light", GI_IN_SCENE, LIGHT, NONE, NULL, .type = "Light", .help = "a source of light"),
+    ROW("environment", GI_IN_SCENE, ENVIRONMENT, ENVIRONMENT, NULL, .evidence = GI_EVIDENCE_BSDF,
+        .help = "light from all around"),
+    ROW("cubemap", GI_IN_SCENE, ENVIRONMENT, ENVIRONMENT, NULL, .type = "Cubemap",
+        .evidence = GI_EVIDENCE_SECOND_TRACER, .alias_of = "environment",
+        .help = "the environment of 2017b"),
+    ROW("integrator", GI_IN_SCENE, INTEGRATOR, INTEGRATOR, NULL, .evidence = GI_EVIDENCE_BSDF,
+        .help = "how light is gathered; LightSamplingIntegrator when absent"),
     ROW("samples", GI_IN_SCENE, INTEGER, SAMPLES, "1", GI_CHECK_SAMPLES,
         .help = "samples per pixel, rounded to a square grid"),
     ROW("backColor", GI_IN_SCENE, COLOR, BACK_COLOR, "0 0 0",
@@ -61,25 +77,75 @@ const GiElement gi_elements[] = {
     ROW("point", FLAT, POINT, POINT, "0 0 0", .help = "a point of the plane, the disc's centre"),
     ROW("normal", FLAT, VECTOR, NORMAL, "0 0 1", GI_CHECK_LENGTH,
         .help = "vector at right angles to the surface"),
+    ROW("data", GI_IN_MESH, STRING, DATA, NULL, .required = true,
+        .help = "the file of the mesh, .obj or .msh"),
     ROW("translate", GI_IN_GROUP, VECTOR, TRANSLATE, NULL, .help = "moves the group"),
     ROW("rotate", GI_IN_GROUP, VECTOR, ROTATE, NULL,
         .help = "turns the group by degrees about x, then y, then z"),
     ROW("scale", GI_IN_GROUP, VECTOR, SCALE, NULL, GI_CHECK_NO_ZERO,
         .help = "stretches the group; may be negative"),
 
-    ROW("diffuseColor", SHADED, COLOR, DIFFUSE, "1 1 1",
+    ROW("diffuseColor", MATTE | GI_IN_COOK_TORRANCE | BSDF, COLOR, DIFFUSE, "1 1 1",
         .help = "diffuse reflection; 0.2 0.2 0.2 when absent from a Lambertian shader of 2019"),
-    ROW("color", SHADED, COLOR, DIFFUSE, "1 1 1", .alias_of = "diffuseColor",
+    ROW("diffuseColor", FACETS, COLOR, DIFFUSE, "0 0 0", .help = "diffuse reflection"),
+    ROW("color", MATTE, COLOR, DIFFUSE, "1 1 1", .alias_of = "diffuseColor",
         .help = "older word for diffuseColor"),
-    ROW("specularColor", GI_IN_PHONG, COLOR, SPECULAR, "1 1 1", .help = "colour of the highlight"),
+    ROW("specularColor", GI_IN_PHONG | GI_IN_COOK_TORRANCE | GI_IN_MICROFACET_BSDF, COLOR, SPECULAR,
+        "1 1 1", .help = "colour of the highlight"),
     ROW("exponent", GI_IN_PHONG, REAL, EXPONENT, "1", .help = "sharpness of the highlight"),
+    ROW("microfacetColor", GI_IN_MICROFACET, COLOR, SPECULAR, "0 0 0",
+        .help = "colour of the highlight"),
+    ROW("microfacetColor", GI_IN_MICROFACETS, COLOR, SPECULAR, "1 1 1",
+        .help = "colour of the highlight"),
+    ROW("mirrorCoefficient", MATTE | FACETS, COLOR, MIRROR, "0 0 0", .evidence = GI_EVIDENCE_2019,
+        .help = "colour of the mirror; black: none"),
+    ROW("alpha", GI_IN_BRDF | GI_IN_MICROFACETS, REAL, ROUGHNESS, NULL, GI_CHECK_POSITIVE,
+        .required = true, .help = "roughness of the microfacets"),
+    ROW("nt", GI_IN_BRDF | GI_IN_MICROFACETS, REAL, REFRACTION, NULL, GI_CHECK_POSITIVE,
+        .required = true, .help = "index of refraction of the microfacets"),
+    ROW("roughness", GI_IN_COOK_TORRANCE, REAL, ROUGHNESS, "1", GI_CHECK_POSITIVE,
+        .help = "width of the highlight"),
+    ROW("roughness", GI_IN_MICROFACET_BSDF, REAL, ROUGHNESS, "0.5", GI_CHECK_POSITIVE,
+        .help = "alpha of the microfacets; counts for a later disttype"),
+    ROW("refractiveIndex", GI_IN_GLASS, REAL, REFRACTION, "1", GI_CHECK_POSITIVE,
+        .help = "index of refraction"),
+    ROW("refractiveIndex", GI_IN_GLAZED | GI_IN_COOK_TORRANCE, REAL, REFRACTION, NULL,
+        GI_CHECK_POSITIVE, .required = true, .help = "index of refraction"),
+    ROW("refractiveIndex", GI_IN_GLASS_BSDF | GI_IN_GLAZED_BSDF, REAL, REFRACTION, "1.5",
+        GI_CHECK_POSITIVE, .help = "index of refraction"),
+    ROW("refractiveIndex", GI_IN_MICROFACET_BSDF, REAL, REFRACTION, "1.5", GI_CHECK_POSITIVE,
+        .help = "index of refraction; counts for a later disttype"),
+    ROW("disttype", GI_IN_MICROFACET_BSDF, INTEGER, DISTTYPE, "0", GI_CHECK_BIT,
+        .help = "0: Beckmann, 1: GGX; puts an earlier roughness and refractiveIndex into force"),
+    ROW("substrate", GI_IN_GLAZED, SHADER, SUBSTRATE, NULL, .required = true,
+        .help = "the shader under the glaze"),
+    ROW("substrate", GI_IN_GLAZED_BSDF, BSDF, SUBSTRATE, NULL, .required = true,
+        .help = "the bsdf under the glaze"),
+    ROW("image", GI_IN_TEXTURE, STRING, PICTURE, NULL, .required = true,
+        .help = "the file of the picture, PNG or JPEG"),
 
-    ROW("position", GI_IN_ANY_LIGHT, POINT, POSITION, "0 0 0", .help = "where the light stands"),
+    ROW("position", GI_IN_ANY_LIGHT, POINT, POSITION, "0 0 0",
+        .help = "where the light stands; of a rectangle the centre"),
     ROW("intensity", GI_IN_ANY_LIGHT, COLOR, INTENSITY, "1 1 1", .help = "colour of the light"),
     ROW("color", GI_IN_ANY_LIGHT, COLOR, INTENSITY, "1 1 1", .alias_of = "intensity",
         .help = "older word for intensity"),
     ROW("falloff", GI_IN_POINT_LIGHT, CHOICE, FALLOFF, NULL, .choices = "none inverse-square",
         .help = "how light weakens with distance; as the dialect has it when absent"),
+    ROW("direction", GI_IN_DIRECTIONAL_LIGHT, VECTOR, DIRECTION, NULL, GI_CHECK_LENGTH,
+        .required = true, .help = "vector toward the light"),
+    ROW("normalDir", GI_IN_RECTANGLE_LIGHT, VECTOR, DIRECTION, "0 0 -1", GI_CHECK_LENGTH,
+        .help = "vector to the side that shines"),
+    ROW("upDir", GI_IN_RECTANGLE_LIGHT, VECTOR, UP, "0 1 0", GI_CHECK_LENGTH,
+        .help = "vector along the height"),
+    ROW("width", GI_IN_RECTANGLE_LIGHT, REAL, LIGHT_WIDTH, "1", GI_CHECK_POSITIVE,
+        .help = "extent across upDir"),
+    ROW("height", GI_IN_RECTANGLE_LIGHT, REAL, LIGHT_HEIGHT, "1", GI_CHECK_POSITIVE,
+        .help = "extent along upDir"),
+    ROW("filename", GI_IN_CUBEMAP, STRING, FILENAME, NULL, .required = true,
+        .help = "the file of the map, PFM: a cross of 3 x 4 faces"),
+    ROW("scaleFactor", GI_IN_CUBEMAP, REAL, SCALE_FACTOR, "1", .help = "factor of the map"),
+    ROW("maxDepth", GI_IN_PATH_INTEGRATOR, INTEGER, MAX_DEPTH, "12", GI_CHECK_DEPTH,
+        .help = "how many surfaces a path may meet"),
     {.name = NULL},
 };
 
@@ -100,6 +166,7 @@ const GiType gi_types[] = {
     TYPE("Cone", SURFACE, CONE, SURFACE_CONE, 0, NULL, "along z, closed"),
     TYPE("Plane", SURFACE, PLANE, SURFACE_PLANE, GI_EVIDENCE_MATERIAL, NULL, "without end"),
     TYPE("Disc", SURFACE, DISC, SURFACE_DISC, GI_EVIDENCE_MATERIAL, NULL, "flat and round"),
+    TYPE("Mesh", SURFACE, MESH, SURFACE_MESH, 0, NULL, "triangles of a file"),
     TYPE("Group", SURFACE, GROUP, SURFACE_GROUP, GI_EVIDENCE_SECOND_TRACER, NULL,
         "surfaces under a common transform"),
 
@@ -107,6 +174,31 @@ const GiType gi_types[] = {
     TYPE("Phong", SHADER, PHONG, SHADER_PHONG, 0, NULL, "matte with a highlight"),
     TYPE("RGBNormals", SHADER, RGB_NORMALS, SHADER_RGB_NORMALS, 0, NULL,
         "shows the normal as a colour"),
+    TYPE("Glazed", SHADER, GLAZED, SHADER_GLAZED, GI_EVIDENCE_SECOND_TRACER, NULL,
+        "a clear coat that mirrors over a substrate"),
+    TYPE("Glass", SHADER, GLASS, SHADER_GLASS, GI_EVIDENCE_SECOND_TRACER, NULL,
+        "mirrors and refracts"),
+    TYPE("Microfacet", SHADER, MICROFACET, SHADER_BECKMANN, 0, NULL,
+        "microfacets, distributed as the brdf says, on a matte base"),
+    TYPE("MicrofacetBeckmann", SHADER, MICROFACETS, SHADER_BECKMANN, GI_EVIDENCE_2019, NULL,
+        "microfacets with Beckmann's distribution"),
+    TYPE("MicrofacetGGX", SHADER, MICROFACETS, SHADER_GGX, GI_EVIDENCE_2019, NULL,
+        "microfacets with the GGX distribution"),
+    TYPE("CookTorrance", SHADER, COOK_TORRANCE, SHADER_COOK_TORRANCE, GI_EVIDENCE_SECOND_TRACER,
+        NULL, "the older microfacets of Cook and Torrance"),
+
+    TYPE("LambertianBSDF", BSDF, LAMBERTIAN_BSDF, SHADER_LAMBERTIAN, 0, NULL, "matte"),
+    TYPE("MicrofacetBSDF", BSDF, MICROFACET_BSDF, SHADER_BECKMANN, 0, NULL,
+        "microfacets, distributed as disttype says, on a matte base"),
+    TYPE("GlassBSDF", BSDF, GLASS_BSDF, SHADER_GLASS, 0, NULL, "mirrors and refracts"),
+    TYPE("GlazedBSDF", BSDF, GLAZED_BSDF, SHADER_GLAZED, 0, NULL,
+        "a clear coat that mirrors over a substrate"),
+
+    TYPE("Beckmann", BRDF, BRDF, SHADER_BECKMANN, 0, NULL, "Beckmann's distribution"),
+    TYPE("GGX", BRDF, BRDF, SHADER_GGX, 0, NULL, "the GGX distribution"),
+
+    TYPE("RepeatTexture", TEXTURE, TEXTURE, WRAP_REPEAT, 0, NULL, "the picture repeats itself"),
+    TYPE("ClampTexture", TEXTURE, TEXTURE, WRAP_CLAMP, 0, NULL, "the picture's edge goes on"),
 
     TYPE("PointLight", LIGHT, POINT_LIGHT, LIGHT_POINT, GI_EVIDENCE_LIGHT_TYPE, NULL,
         "shines from a point, with shadows"),
@@ -117,20 +209,37 @@ const GiType gi_types[] = {
         "adds diffuseColor everywhere"),
     TYPE("NormalLight", LIGHT, NORMAL_LIGHT, LIGHT_NORMAL, GI_EVIDENCE_LIGHT_TYPE, NULL,
         "adds (normal + 1) / 2 everywhere"),
+    TYPE("DirectionalLight", LIGHT, DIRECTIONAL_LIGHT, LIGHT_DIRECTIONAL, GI_EVIDENCE_LIGHT_TYPE,
+        NULL, "shines from infinitely far away, with shadows"),
+    TYPE("RectangleLight", LIGHT, RECTANGLE_LIGHT, LIGHT_RECTANGLE, GI_EVIDENCE_LIGHT_TYPE, NULL,
+        "shines from one side of a rectangle, with soft shadows"),
+
+    {"Cubemap", GI_KIND_ENVIRONMENT, GI_IN_CUBEMAP, 0, 0, NULL, "a picture on the faces of a cube"},
+
+    TYPE("LightSamplingIntegrator", INTEGRATOR, INTEGRATOR, INTEGRATOR_LIGHT_SAMPLING, 0, NULL,
+        "direct light, by points of the lights"),
+    TYPE("BSDFSamplingIntegrator", INTEGRATOR, INTEGRATOR, INTEGRATOR_BSDF_SAMPLING, 0, NULL,
+        "direct light, by directions of the bsdf"),
+    TYPE("PointLightIntegrator", INTEGRATOR, INTEGRATOR, INTEGRATOR_POINT_LIGHT, 0, NULL,
+        "point lights only, no mirrors"),
+    TYPE("PathIntegrator", INTEGRATOR, PATH_INTEGRATOR, INTEGRATOR_PATH, 0, NULL,
+        "all light, also from surface to surface"),
     {.name = NULL},
 };
 /* clang-format on */
 
 /* ---------------------------------------------------------------- finding */
 
+/* Setting a bit makes small letters of capitals; that it also mixes up other characters does no
+ * harm here. */
 static unsigned hash_name(const char *name) {
     unsigned hash = 0;
-    for (; *name != '\0'; name++) hash = hash * 31 + (unsigned char)gi_lower(*name);
+    for (; *name != '\0'; name++) hash = hash * 3 + ((unsigned char)*name | 0x20u);
     return (hash ^ hash >> 7) % GI_ELEMENT_SLOT_COUNT;
 }
 
 static bool same_name(const char *a, const char *b) {
-    while (*a != '\0' && gi_lower(*a) == gi_lower(*b)) a++, b++;
+    while (*a != '\0' && (*a == *b || gi_lower(*a) == gi_lower(*b))) a++, b++;
     return *a == '\0' && *b == '\0';
 }
 
@@ -143,7 +252,8 @@ void gi_element_index_init(GiElementIndex *index) {
     }
 }
 
-const GiElement *gi_element_find(const GiElementIndex *index, const char *name, uint32_t contexts) {
+const GiElement *gi_element_find(
+    const GiElementIndex *index, const char *name, GiContexts contexts) {
     for (unsigned row = index->first[hash_name(name)]; row != 0; row = index->next[row - 1]) {
         const GiElement *element = &gi_elements[row - 1];
         if ((element->contexts & contexts) != 0 && same_name(element->name, name)) return element;
@@ -151,9 +261,23 @@ const GiElement *gi_element_find(const GiElementIndex *index, const char *name, 
     return NULL;
 }
 
+const GiElement *gi_element_guess(GiElementIndex *index, const char *name, uint64_t contexts) {
+    uint8_t *guess = &index->after[index->last];
+    const GiElement *element = *guess > 0 ? &gi_elements[*guess - 1] : NULL;
+    if (element == NULL || (element->contexts & contexts) == 0 ||
+        strcmp(element->name, name) != 0) {
+        element = gi_element_find(index, name, contexts);
+        if (element == NULL) return NULL;
+        *guess = (uint8_t)(element - gi_elements + 1);
+    }
+    index->last = *guess;
+    return element;
+}
+
 const GiType *gi_type_find(const char *name, GiKind kind) {
     for (const GiType *type = gi_types; type->name != NULL; type++) {
-        if (type->kind == kind && strcmp(type->name, name) == 0) return type;
+        if (type->kind != kind || type->name[0] != name[0]) continue;
+        if (strcmp(type->name, name) == 0) return type;
     }
     return NULL;
 }
@@ -169,13 +293,19 @@ const char *gi_kind_text(GiKind kind) {
     case GI_KIND_POINT: return "a point";
     case GI_KIND_COLOR: return "a colour";
     case GI_KIND_CHOICE: return "a word";
+    case GI_KIND_STRING: return "text";
     case GI_KIND_SCENE: return "a scene";
     case GI_KIND_CAMERA: return "a camera";
     case GI_KIND_SURFACE: return "a surface";
     case GI_KIND_SHADER: return "a shader";
-    case GI_KIND_LIGHT: break;
+    case GI_KIND_BSDF: return "a bsdf";
+    case GI_KIND_BRDF: return "a brdf";
+    case GI_KIND_TEXTURE: return "a texture";
+    case GI_KIND_LIGHT: return "a light";
+    case GI_KIND_ENVIRONMENT: return "an environment";
+    case GI_KIND_INTEGRATOR: break;
     }
-    return "a light";
+    return "an integrator";
 }
 
 int gi_kind_count(GiKind kind) {
@@ -191,15 +321,27 @@ int gi_kind_count(GiKind kind) {
     }
 }
 
-uint32_t gi_kind_contexts(GiKind kind) {
+GiContexts gi_kind_contexts(GiKind kind) {
     switch (kind) {
     case GI_KIND_SCENE: return GI_IN_SCENE;
     case GI_KIND_CAMERA: return GI_IN_CAMERA;
     case GI_KIND_SURFACE: return GI_IN_ANY_SURFACE;
     case GI_KIND_SHADER: return GI_IN_ANY_SHADER;
+    case GI_KIND_BSDF: return GI_IN_ANY_BSDF;
+    case GI_KIND_BRDF: return GI_IN_BRDF;
+    case GI_KIND_TEXTURE: return GI_IN_TEXTURE;
     case GI_KIND_LIGHT: return GI_IN_ANY_LIGHT;
+    case GI_KIND_ENVIRONMENT: return GI_IN_CUBEMAP;
+    case GI_KIND_INTEGRATOR: return GI_IN_ANY_INTEGRATOR;
     default: return 0;
     }
+}
+
+bool gi_kind_fits(GiKind kind, GiKind wanted) {
+    bool shader = kind == GI_KIND_SHADER || kind == GI_KIND_BSDF;
+    bool to_shade = wanted == GI_KIND_SHADER || wanted == GI_KIND_BSDF;
+    return kind == wanted || (shader && to_shade) ||
+           (gi_kind_count(kind) == 3 && gi_kind_count(wanted) == 3);
 }
 
 /* Joins words as "a, b or c"; the caller says how many there will be. */
@@ -218,11 +360,11 @@ static void enumerate(Enumeration *list, const char *word) {
     if (list->length >= list->size) list->length = list->size - 1;
 }
 
-static bool listed(const GiType *type, GiKind kind, uint32_t contexts) {
+static bool listed(const GiType *type, GiKind kind, GiContexts contexts) {
     return type->kind == kind && type->alias_of == NULL && (type->context & contexts) != 0;
 }
 
-static void list_types(GiKind kind, uint32_t contexts, Enumeration *list) {
+static void list_types(GiKind kind, GiContexts contexts, Enumeration *list) {
     list->index = list->count = 0;
     for (const GiType *type = gi_types; type->name != NULL; type++) {
         list->count += listed(type, kind, contexts);
@@ -235,7 +377,7 @@ static void list_types(GiKind kind, uint32_t contexts, Enumeration *list) {
 void gi_type_list_text(GiKind kind, char *buffer, size_t size) {
     Enumeration list = {.buffer = buffer, .size = size};
     buffer[0] = '\0';
-    list_types(kind, UINT32_MAX, &list);
+    list_types(kind, GI_ANYWHERE, &list);
 }
 
 /* Whether "an" goes before the word; "RGB" is spelled, so that it begins with a vowel. */
@@ -244,16 +386,17 @@ static bool takes_an(const char *word) {
     return word[0] != '\0' && strchr(spelled ? "AEFHILMNORSX" : "AEIOUaeiou", word[0]) != NULL;
 }
 
-void gi_context_text(uint32_t contexts, char *buffer, size_t size) {
-    static const GiKind kinds[] = {
-        GI_KIND_SCENE, GI_KIND_CAMERA, GI_KIND_SURFACE, GI_KIND_SHADER, GI_KIND_LIGHT};
+void gi_context_text(GiContexts contexts, char *buffer, size_t size) {
+    static const GiKind kinds[] = {GI_KIND_SCENE, GI_KIND_CAMERA, GI_KIND_SURFACE, GI_KIND_SHADER,
+        GI_KIND_BSDF, GI_KIND_BRDF, GI_KIND_TEXTURE, GI_KIND_LIGHT, GI_KIND_ENVIRONMENT,
+        GI_KIND_INTEGRATOR};
     Enumeration list = {.buffer = buffer, .size = size};
     buffer[0] = '\0';
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         list.count += (contexts & gi_kind_contexts(kinds[i])) != 0;
     }
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
-        uint32_t all = gi_kind_contexts(kinds[i]), some = contexts & all;
+        GiContexts all = gi_kind_contexts(kinds[i]), some = contexts & all;
         if (some == 0) continue;
         if (kinds[i] == GI_KIND_SCENE) {
             enumerate(&list, "the scene");
@@ -264,7 +407,9 @@ void gi_context_text(uint32_t contexts, char *buffer, size_t size) {
             Enumeration inner = {.buffer = types, .size = sizeof types};
             list_types(kinds[i], some, &inner);
             const char *noun = strchr(gi_kind_text(kinds[i]), ' ') + 1;
-            bool named = kinds[i] == GI_KIND_LIGHT; /* "PointLight" says it */
+            /* "PointLight" says it. */
+            bool named = kinds[i] == GI_KIND_LIGHT || kinds[i] == GI_KIND_BSDF ||
+                         kinds[i] == GI_KIND_INTEGRATOR;
             snprintf(phrase, sizeof phrase, "%s %s%s%s", takes_an(types) ? "an" : "a", types,
                 named ? "" : " ", named ? "" : noun);
             enumerate(&list, phrase);

@@ -83,6 +83,16 @@ const GiNamed *gi_names_get(const GiNames *names, const char *name) {
     return slot == 0 ? NULL : &names->entries.data[slot - 1];
 }
 
+bool gi_names_intern(GiNames *names, const char *name, uint32_t *number) {
+    const GiNamed *entry = gi_names_get(names, name);
+    if (entry != NULL) {
+        *number = (uint32_t)(entry - names->entries.data);
+        return true;
+    }
+    *number = (uint32_t)names->entries.count;
+    return gi_names_set(names, name, (GiNamed){.kind = GI_KIND_STRING});
+}
+
 const char *gi_names_suggest(const GiNames *names, const char *name) {
     enum { LOOK_BACK = 10000 }; /* bounds the time of a file with very many names and errors */
     GiSuggestion suggestion = gi_suggestion_begin(name, strlen(name));

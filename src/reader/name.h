@@ -11,7 +11,7 @@ typedef struct GiNamed {
     uint32_t hash;
     uint8_t kind;   /* GiKind */
     bool broken;    /* its definition has an error, which is reported: a use of it is not another */
-    uint32_t index; /* of the values, cameras, shaders or lights */
+    uint32_t index; /* of the values, cameras, shaders, lights, meshes or pictures */
     GiShapeRef shape;
 } GiNamed;
 
@@ -33,6 +33,10 @@ bool gi_names_set(GiNames *names, const char *name, GiNamed named);
 
 /* Null when there is none. Valid until the next set. */
 const GiNamed *gi_names_get(const GiNames *names, const char *name);
+
+/* The number of the name's entry, which it gets now when there is none. False when memory is short.
+ */
+bool gi_names_intern(GiNames *names, const char *name, uint32_t *number);
 
 /* The nearest name, or null. */
 const char *gi_names_suggest(const GiNames *names, const char *name);

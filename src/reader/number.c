@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Three ways, each exact, tried in order of speed:
+ * Three ways, each exact, tried in order of speed (the first once more ahead of all, for numbers
+ * that are written the way nearly all are):
  *
  *   1. The digits fit in 53 bits and the power of ten in a double: one rounding, done by the
  *      processor (Clinger 1990).
@@ -188,9 +189,11 @@ static double convert_exact(const Decimal *decimal, int64_t point_exponent) {
 
 /* ---------------------------------------------------------------- reading */
 
+/* The powers of ten that are doubles. */
+static const double powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12,
+    1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
 static double convert(const Decimal *decimal, int64_t point_exponent) {
-    static const double powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
-        1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     uint64_t digits = decimal->leading;
     if (digits == 0) return 0;
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD == 0
@@ -215,7 +218,81 @@ static double convert(const Decimal *decimal, int64_t point_exponent) {
 
 static bool is_digit(char c) { return (unsigned char)(c - '0') <= 9; }
 
+/* ---------------------------------------------------------------- eight digits at once */
+
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ &&                        \
+    defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD == 0
+
+/* Up to eight characters from p on, the first in the lowest byte; zeros for those behind the end.
+ * The text begins at least eight characters before the end. */
+static uint64_t load_eight(const char *p, const char *end) {
+    uint64_t word;
+    if (end - p >= 8) {
+        memcpy(&word, p, 8);
+        return word;
+    }
+    memcpy(&word, end - 8, 8);
+    return p < end ? word >> 8 * (8 - (end - p)) : 0;
+}
+
+/* How many of the eight characters are digits, up to the first that is none, and their value: no
+ * loop, whose length could not be foretold. */
+static int read_eight(uint64_t word, uint64_t *value) {
+    const uint64_t ones = UINT64_C(0x0101010101010101);
+    uint64_t digits = word ^ '0' * ones;
+    uint64_t others = ((digits + (0x80 - 10) * ones) | digits) & 0x80 * ones;
+    int count = others == 0 ? 8 : __builtin_ctzll(others) / 8;
+    *value = 0;
+    if (count == 0) return 0;
+    /* With zeros in front; then neighbours together, then pairs, then fours. */
+    digits <<= 8 * (8 - count);
+    digits = digits * 10 + (digits >> 8);
+    const uint64_t pairs = UINT64_C(0x000000ff000000ff);
+    *value = ((digits & pairs) * (100 + (UINT64_C(1000000) << 32)) +
+                 ((digits >> 16) & pairs) * (1 + (UINT64_C(10000) << 32))) >>
+             32;
+    return count;
+}
+
+/* A number of at most eight digits before the point and eight behind it, without an exponent:
+ * nearly all are written so. False when it is something else. */
+static bool read_plain(const char *text, size_t size, double *value, size_t *used) {
+    if (size < 8) return false;
+    const char *p = text, *end = text + size;
+    bool negative = *p == '-';
+    p += negative;
+    /* Few and often as many as last time, so that this loop is quicker than eight at once. */
+    const char *first = p;
+    uint64_t digits = 0;
+    while (p - text < 8 && is_digit(*p)) digits = digits * 10 + (uint64_t)(*p++ - '0');
+    int count = (int)(p - first), places = 0;
+    if (p < end && *p == '.') {
+        static const uint32_t shifts[] = {
+            1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
+        uint64_t fraction;
+        p++;
+        places = read_eight(load_eight(p, end), &fraction);
+        p += places;
+        digits = digits * shifts[places] + fraction;
+    }
+    bool more = p < end && (is_digit(*p) || *p == 'e' || *p == 'E');
+    if (more || count + places == 0 || digits > UINT64_C(1) << 53) return false;
+    static const double signs[] = {1, -1}; /* nobody can foretell a branch on the sign */
+    *value = (double)(int64_t)digits / powers[places] * signs[negative];
+    *used = (size_t)(p - text);
+    return true;
+}
+#else
+static bool read_plain(const char *text, size_t size, double *value, size_t *used) {
+    (void)text, (void)size, (void)value, (void)used;
+    return false;
+}
+#endif
+
+/* ---------------------------------------------------------------- the whole */
+
 GiNumberStatus gi_number_read(const char *text, size_t size, double *value, size_t *used) {
+    if (read_plain(text, size, value, used)) return GI_NUMBER_OK;
     const char *p = text, *end = text + size;
     bool negative = p < end && *p == '-';
     if (p < end && (*p == '-' || *p == '+')) p++;

@@ -4,13 +4,7 @@
 
 #include <string.h>
 
-static uint64_t slot_bits(GiSlot first, GiSlot last) {
-    return ((UINT64_C(2) << last) - 1) & ~((UINT64_C(1) << first) - 1);
-}
-
-static GiVec slot(const GiReader *reader, GiSlot which) {
-    return gi_reader_is_given(reader, which) ? reader->slots[which].value : reader->defaults[which];
-}
+static GiVec slot(const GiReader *reader, GiSlot which) { return gi_reader_slot(reader, which); }
 
 static bool is_group(const GiFrame *frame) {
     return frame->type != NULL && frame->element->kind == GI_KIND_SURFACE &&
@@ -40,30 +34,68 @@ void gi_object_name_value(GiReader *reader, const GiFrame *frame, GiVec value) {
     gi_object_name(reader, frame, (GiNamed){.kind = (uint8_t)frame->element->kind, .index = index});
 }
 
+/* ---------------------------------------------------------------- slots */
+
+static uint64_t slot_bits(GiSlot first, GiSlot last) {
+    return ((UINT64_C(2) << last) - 1) & ~((UINT64_C(1) << first) - 1);
+}
+
+uint64_t gi_object_slots(GiKind kind) {
+    switch (kind) {
+    case GI_KIND_CAMERA: return slot_bits(GI_SLOT_VIEW_POINT, GI_SLOT_VIEW_HEIGHT);
+    case GI_KIND_SURFACE: return slot_bits(GI_SLOT_CENTER, GI_SLOT_DATA);
+    case GI_KIND_SHADER:
+    case GI_KIND_BSDF: return slot_bits(GI_SLOT_DIFFUSE, GI_SLOT_REFRACTION);
+    case GI_KIND_BRDF: return slot_bits(GI_SLOT_ROUGHNESS, GI_SLOT_REFRACTION);
+    case GI_KIND_TEXTURE: return slot_bits(GI_SLOT_PICTURE, GI_SLOT_PICTURE);
+    case GI_KIND_LIGHT: return slot_bits(GI_SLOT_POSITION, GI_SLOT_LIGHT_HEIGHT);
+    case GI_KIND_ENVIRONMENT: return slot_bits(GI_SLOT_FILENAME, GI_SLOT_SCALE_FACTOR);
+    case GI_KIND_INTEGRATOR: return slot_bits(GI_SLOT_MAX_DEPTH, GI_SLOT_MAX_DEPTH);
+    default: return 0;
+    }
+}
+
+/* The same slot may have another default in another type. */
+void gi_object_use_type(GiReader *reader, const GiType *type) {
+    if (type == reader->type) return;
+    reader->type = type;
+    reader->required = 0;
+    for (int row = 0; gi_elements[row].name != NULL; row++) {
+        const GiElement *element = &gi_elements[row];
+        if ((element->contexts & type->context) == 0) continue;
+        reader->defaults[element->slot] = reader->row_defaults[row];
+        if (element->required) reader->required |= UINT64_C(1) << element->slot;
+    }
+}
+
+bool gi_object_is_complete(GiReader *reader, const GiFrame *frame) {
+    const GiType *type = frame->type;
+    gi_object_use_type(reader, type);
+    uint64_t missing = reader->required & ~reader->given;
+    if (missing == 0) return true;
+    for (const GiElement *e = gi_elements; e->name != NULL; e++) {
+        bool here = (e->contexts & type->context) != 0 && (missing >> e->slot & 1) != 0;
+        if (!here) continue;
+        gi_report_add(&reader->report, frame->place,
+            1 + (int)strlen(reader->tags.data + frame->tag), "%s needs `%s`: %s", type->name,
+            e->name, e->help);
+    }
+    return false;
+}
+
 /* ---------------------------------------------------------------- beginning and values */
 
 void gi_object_begin(GiReader *reader, GiFrame *frame) {
-    switch (frame->element->kind) {
-    case GI_KIND_CAMERA:
-        reader->given &= ~slot_bits(GI_SLOT_VIEW_POINT, GI_SLOT_VIEW_HEIGHT);
-        break;
-    case GI_KIND_SURFACE:
-        if (is_group(frame)) {
-            GiShapeRef ref;
-            if (!gi_scene_add_group(reader->scene, &ref)) {
-                gi_reader_out_of_memory(reader);
-                return;
-            }
-            frame->index = gi_shape_index(ref);
+    if (is_group(frame)) {
+        GiShapeRef ref;
+        if (!gi_scene_add_group(reader->scene, &ref)) {
+            gi_reader_out_of_memory(reader);
             return;
         }
-        reader->given &= ~slot_bits(GI_SLOT_CENTER, GI_SLOT_NORMAL);
-        frame->index = 0; /* the default shader */
-        break;
-    case GI_KIND_SHADER: reader->given &= ~slot_bits(GI_SLOT_DIFFUSE, GI_SLOT_EXPONENT); break;
-    case GI_KIND_LIGHT: reader->given &= ~slot_bits(GI_SLOT_POSITION, GI_SLOT_FALLOFF); break;
-    default: break;
+        frame->index = gi_shape_index(ref);
+        return;
     }
+    reader->given &= ~gi_object_slots(frame->element->kind);
 }
 
 static void add_step(
@@ -72,6 +104,22 @@ static void add_step(
     if (!gi_scene_add_step(reader->scene, parent->index, kind, value)) {
         gi_reader_out_of_memory(reader);
     }
+}
+
+/* Files are loaded as soon as they are named, so that what is wrong with them is told there. */
+static void set_file(GiReader *reader, GiFrame *parent, GiSlot slot, GiVec value, GiPlace place) {
+    uint32_t index;
+    bool good = slot == GI_SLOT_DATA ? gi_files_mesh(reader, value, place, &index)
+                                     : gi_files_picture(reader, value, place, &index);
+    if (good) {
+        gi_reader_put(reader, slot, gi_vec(index, 0, 0), place);
+    } else {
+        parent->broken = true;
+    }
+}
+
+static bool is_glazing(const GiFrame *frame) {
+    return frame->type != NULL && (frame->type->context & (GI_IN_GLAZED | GI_IN_GLAZED_BSDF)) != 0;
 }
 
 void gi_object_set(
@@ -91,14 +139,31 @@ void gi_object_set(
     case GI_SLOT_TRANSLATE: add_step(reader, parent, GI_STEP_TRANSLATE, value); break;
     case GI_SLOT_ROTATE: add_step(reader, parent, GI_STEP_ROTATE, value); break;
     case GI_SLOT_SCALE: add_step(reader, parent, GI_STEP_SCALE, value); break;
-    default:
-        reader->slots[element->slot] = (GiSlotValue){value, place};
-        reader->given |= UINT64_C(1) << element->slot;
+    case GI_SLOT_ENVIRONMENT:
+        if (!gi_files_environment(reader, value, place)) parent->broken = true;
         break;
+    case GI_SLOT_INTEGRATOR:
+        scene->integrator = (GlintIntegrator)value.x;
+        scene->max_depth = (int)value.y;
+        break;
+    case GI_SLOT_DATA:
+    case GI_SLOT_PICTURE: set_file(reader, parent, element->slot, value, place); break;
+    case GI_SLOT_REFRACTION:
+        if (is_glazing(parent)) parent->refraction = value.x;
+        gi_reader_put(reader, element->slot, value, place);
+        break;
+    case GI_SLOT_DISTTYPE:
+        /* What roughness and index stand before it is what counts. */
+        if (parent->type != NULL) gi_object_use_type(reader, parent->type);
+        value.y = slot(reader, GI_SLOT_ROUGHNESS).x;
+        value.z = slot(reader, GI_SLOT_REFRACTION).x;
+        gi_reader_put(reader, element->slot, value, place);
+        break;
+    default: gi_reader_put(reader, element->slot, value, place); break;
     }
 }
 
-/* ---------------------------------------------------------------- camera, shader, light */
+/* ---------------------------------------------------------------- camera, light */
 
 /* The element that a fault of the camera is about: the one that the sentence begins with. */
 static GiPlace place_of_fault(const GiReader *reader, const GiFrame *frame, const char *fault) {
@@ -154,45 +219,37 @@ static void finish_camera(GiReader *reader, GiFrame *frame) {
     gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_CAMERA, .index = index});
 }
 
-/* A shader matters to a surface that has it and to those that refer to it. */
-static void give_shader(GiFrame *parent, uint32_t index) {
-    if (parent->element->kind == GI_KIND_SURFACE && !is_group(parent)) parent->index = index;
+/* How the places of a rectangle are found; false, with the error reported, when they cannot be. */
+static bool read_area(GiReader *reader, const GiFrame *frame, GiLight *light) {
+    light->direction = slot(reader, GI_SLOT_DIRECTION);
+    if (light->type == GLINT_LIGHT_DIRECTIONAL) return true;
+    light->up = slot(reader, GI_SLOT_UP);
+    light->width = slot(reader, GI_SLOT_LIGHT_WIDTH).x;
+    light->height = slot(reader, GI_SLOT_LIGHT_HEIGHT).x;
+    if (gi_scene_check_light(light) == NULL) return true;
+    GiSlot which = gi_reader_is_given(reader, GI_SLOT_UP) ? GI_SLOT_UP : GI_SLOT_DIRECTION;
+    bool given = gi_reader_is_given(reader, which);
+    gi_report_add(&reader->report, given ? reader->slots[which].place : frame->place, 1,
+        "upDir is parallel to normalDir: how the rectangle is turned is then undefined");
+    return false;
 }
 
-static void finish_shader(GiReader *reader, GiFrame *frame, GiFrame *parent) {
-    if (frame->type == NULL || frame->broken) {
-        parent->broken = true;
-        gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_SHADER, .broken = true});
-        return;
-    }
-    bool used = parent->element->kind == GI_KIND_SURFACE && !is_group(parent);
-    if (!used && reader->tags.data[frame->name] == '\0') return;
-    GiShader shader = {
-        .type = (GlintShaderType)frame->type->value,
-        .diffuse_given = gi_reader_is_given(reader, GI_SLOT_DIFFUSE),
-        .diffuse = slot(reader, GI_SLOT_DIFFUSE),
-        .specular = slot(reader, GI_SLOT_SPECULAR),
-        .exponent = slot(reader, GI_SLOT_EXPONENT).x,
-    };
-    size_t index = reader->scene->shaders.count;
-    if (index >= UINT32_MAX || !gi_array_push(reader->memory, &reader->scene->shaders, shader)) {
-        gi_reader_out_of_memory(reader);
-        return;
-    }
-    give_shader(parent, (uint32_t)index);
-    gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_SHADER, .index = (uint32_t)index});
+static bool read_light(GiReader *reader, const GiFrame *frame, GiLight *light) {
+    if (frame->type == NULL || frame->broken || !gi_object_is_complete(reader, frame)) return false;
+    *light = gi_light_default();
+    light->type = (GlintLightType)frame->type->value;
+    light->position = slot(reader, GI_SLOT_POSITION);
+    light->intensity = slot(reader, GI_SLOT_INTENSITY);
+    bool area = light->type == GLINT_LIGHT_DIRECTIONAL || light->type == GLINT_LIGHT_RECTANGLE;
+    return !area || read_area(reader, frame, light);
 }
 
 static void finish_light(GiReader *reader, GiFrame *frame) {
-    if (frame->type == NULL || frame->broken) {
+    GiLight light;
+    if (!read_light(reader, frame, &light)) {
         gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_LIGHT, .broken = true});
         return;
     }
-    GiLight light = {
-        .type = (GlintLightType)frame->type->value,
-        .position = slot(reader, GI_SLOT_POSITION),
-        .intensity = slot(reader, GI_SLOT_INTENSITY),
-    };
     if (gi_reader_is_given(reader, GI_SLOT_FALLOFF)) {
         bool none = reader->slots[GI_SLOT_FALLOFF].value.x == 0;
         light.falloff = none ? GLINT_FALLOFF_NONE : GLINT_FALLOFF_INVERSE_SQUARE;
@@ -203,6 +260,41 @@ static void finish_light(GiReader *reader, GiFrame *frame) {
         return;
     }
     gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_LIGHT, .index = (uint32_t)index});
+}
+
+/* ---------------------------------------------------------------- environment, integrator */
+
+/* Sets what the scene has one of, and names it: the value is all there is to it. */
+static void finish_value(
+    GiReader *reader, GiFrame *frame, GiFrame *parent, bool good, GiVec value, GiPlace place) {
+    if (good) {
+        bool broken = parent->broken;
+        parent->broken = false;
+        gi_object_set(reader, parent, frame->element, value, place);
+        good = !parent->broken;
+        parent->broken |= broken;
+    }
+    if (good) {
+        gi_object_name_value(reader, frame, value);
+    } else {
+        parent->broken = true;
+        gi_object_name(
+            reader, frame, (GiNamed){.kind = (uint8_t)frame->element->kind, .broken = true});
+    }
+}
+
+static void finish_environment(GiReader *reader, GiFrame *frame, GiFrame *parent) {
+    bool good = frame->type != NULL && !frame->broken && gi_object_is_complete(reader, frame);
+    GiVec value = slot(reader, GI_SLOT_FILENAME);
+    value.z = slot(reader, GI_SLOT_SCALE_FACTOR).x;
+    finish_value(reader, frame, parent, good, value, reader->slots[GI_SLOT_FILENAME].place);
+}
+
+static void finish_integrator(GiReader *reader, GiFrame *frame, GiFrame *parent) {
+    bool good = frame->type != NULL && !frame->broken;
+    GiVec value = {0, slot(reader, GI_SLOT_MAX_DEPTH).x, 0};
+    if (good) value.x = frame->type->value;
+    finish_value(reader, frame, parent, good, value, frame->place);
 }
 
 /* ---------------------------------------------------------------- surfaces */
@@ -304,7 +396,11 @@ static bool add_shape(GiReader *reader, GiFrame *frame, GiShapeRef *ref) {
         *ref = gi_shape_ref(GI_SHAPE_GROUP, frame->index);
         return check_group(reader, frame);
     }
-    case GLINT_SURFACE_MESH: return false;
+    case GLINT_SURFACE_MESH:
+        if (!gi_object_is_complete(reader, frame)) return false;
+        added =
+            gi_scene_add_mesh_surface(scene, (uint32_t)slot(reader, GI_SLOT_DATA).x, shader, ref);
+        break;
     }
     if (!added) gi_reader_out_of_memory(reader);
     return added;
@@ -344,8 +440,13 @@ void gi_object_finish(GiReader *reader, GiFrame *frame, GiFrame *parent) {
     switch (frame->element->kind) {
     case GI_KIND_SCENE: finish_scene(reader, frame); break;
     case GI_KIND_CAMERA: finish_camera(reader, frame); break;
-    case GI_KIND_SHADER: finish_shader(reader, frame, parent); break;
+    case GI_KIND_SHADER:
+    case GI_KIND_BSDF: gi_shading_finish_shader(reader, frame, parent); break;
+    case GI_KIND_BRDF: gi_shading_finish_brdf(reader, frame, parent); break;
+    case GI_KIND_TEXTURE: gi_shading_finish_texture(reader, frame, parent); break;
     case GI_KIND_LIGHT: finish_light(reader, frame); break;
+    case GI_KIND_ENVIRONMENT: finish_environment(reader, frame, parent); break;
+    case GI_KIND_INTEGRATOR: finish_integrator(reader, frame, parent); break;
     default: finish_surface(reader, frame, parent); break;
     }
 }
@@ -359,7 +460,8 @@ void gi_object_refer(GiReader *reader, GiFrame *frame, GiFrame *parent, const Gi
         reader->scene->has_camera = true;
         break;
     case GI_KIND_SURFACE: place_shape(reader, parent, copy.shape); break;
-    case GI_KIND_SHADER: give_shader(parent, copy.index); break;
+    case GI_KIND_SHADER:
+    case GI_KIND_BSDF: gi_shading_give(reader, frame, parent, copy.index); break;
     case GI_KIND_LIGHT: {
         GiLight light = reader->scene->lights.data[copy.index];
         if (!gi_array_push(reader->memory, &reader->scene->lights, light)) {

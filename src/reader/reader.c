@@ -254,17 +254,21 @@ static bool open_parser(GiReader *reader) {
     return true;
 }
 
-static void open_reader(GiReader *reader, GiScene *scene) {
+static void open_reader(GiReader *reader, GiScene *scene, const GiReaderSource *source) {
     memset(reader, 0, sizeof *reader);
+    reader->source = source;
     reader->scene = scene;
     reader->memory = scene->memory;
     gi_element_index_init(&reader->elements);
     gi_window_init(&reader->window, scene->memory);
     gi_report_init(&reader->report, scene->memory, &reader->window);
     gi_names_init(&reader->names, scene->memory);
-    for (const GiElement *e = gi_elements; e->name != NULL; e++) {
-        if (e->default_text != NULL)
-            reader->defaults[e->slot] = gi_value_parse_default(e->default_text);
+    gi_names_init(&reader->strings, scene->memory);
+    for (int row = 0; gi_elements[row].name != NULL; row++) {
+        const char *text = gi_elements[row].default_text;
+        if (text == NULL) continue;
+        reader->row_defaults[row] = gi_value_parse_default(text);
+        reader->defaults[gi_elements[row].slot] = reader->row_defaults[row];
     }
 }
 
@@ -275,6 +279,8 @@ static void close_reader(GiReader *reader) {
     gi_array_free(reader->memory, &reader->cameras);
     gi_array_free(reader->memory, &reader->doubtful);
     gi_names_reset(&reader->names);
+    gi_names_reset(&reader->strings);
+    gi_files_reset(&reader->files, reader->memory);
     gi_report_reset(&reader->report);
     gi_window_reset(&reader->window);
 }
@@ -284,8 +290,13 @@ GlintStatus gi_reader_load(
     Feed feed = {.source = source};
     GiReader *reader = gi_memory_allocate(scene->memory, sizeof *reader);
     if (reader == NULL) return gi_error_memory(error);
-    open_reader(reader, scene);
+    open_reader(reader, scene, source);
     GlintStatus status = open_parser(reader) ? parse(reader, &feed, error) : gi_error_memory(error);
+    if (status == GLINT_OK && reader->file_status != GLINT_OK) {
+        status = reader->file_status == GLINT_CANCELLED ? report_cancelled(error)
+                                                        : gi_error_set(error, reader->file_status,
+                                                              "%s", "the system refused a thread");
+    }
     GlintDialect dialect = source->dialect != GLINT_DIALECT_AUTO ? source->dialect
                            : reader->dialect != GLINT_DIALECT_AUTO
                                ? reader->dialect

@@ -7,13 +7,16 @@
 typedef struct GiReaderSource {
     GlintReadFn read;
     void *user;
-    const char *name;             /* for messages */
+    const char *name;             /* for messages; files that the scene names are looked for from
+                                     the folder of this path */
     int64_t total_size;           /* bytes, for progress; -1: not known */
     const GlintMonitor *monitor;  /* null: none */
     GlintDiagnosticFn diagnostic; /* null: none */
     void *diagnostic_user;
     GlintDialect dialect; /* AUTO: what the file says or shows */
     size_t chunk_size;    /* bytes handed to the parser at once; 0: a good size */
+    int thread_count;     /* for loading meshes; 0: one per core */
+    bool without_files;   /* other files are not opened: each counts as found and empty */
 } GiReaderSource;
 
 typedef struct GiReaderResult {

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT
  * What the reader knows in the middle of a file. The open elements form a stack of frames on the
- * heap; the values of the object being read stand in slots, one per meaning. Objects with slots do
- * not nest within their own kind, so that one set of slots is enough; groups, which nest, keep
- * nothing in slots. */
+ * heap; the values of the object being read stand in slots, one per meaning. One set of slots is
+ * enough, since objects with slots do not nest within their own kind, with two exceptions: groups,
+ * which keep nothing in slots, and glazing, whose one value waits in its frame. */
 #pragma once
 
 #include "reader/element.h"
+#include "reader/files.h"
 #include "reader/name.h"
+#include "reader/reader.h"
 #include "reader/report.h"
 #include "scene/scene.h"
 
@@ -29,7 +31,8 @@ typedef struct GiFrame {
     GiPlace place;            /* of its `<` */
     const GiElement *element; /* null when skipped */
     const GiType *type;       /* null: none, or not known */
-    uint32_t contexts;        /* of its children */
+    GiContexts contexts;      /* of its children */
+    double refraction;        /* of glazing, while its substrate is read; 0: not given */
     uint32_t index;           /* a group's index, or a surface's shader */
     uint32_t tag, name;       /* into tags: the tag as written, the name attribute ("" for none) */
     uint8_t skip;             /* GiSkip */
@@ -55,6 +58,7 @@ typedef struct GiDoubtfulGroup {
 } GiDoubtfulGroup;
 
 typedef struct GiReader {
+    const GiReaderSource *source;
     GiScene *scene;
     GiMemory *memory;
     XML_Parser parser;
@@ -62,18 +66,24 @@ typedef struct GiReader {
     GiWindow window;
     GiReport report;
     GiNames names;
+    GiNames strings; /* each text once, with the file that it names when that is loaded */
+    GiFiles files;
     GI_ARRAY(GiFrame) frames;
     GI_ARRAY(char) tags;
     GI_ARRAY(GiCamera) cameras; /* the named ones */
     GI_ARRAY(GiDoubtfulGroup) doubtful;
     GiSlotValue slots[GI_SLOT_COUNT];
-    uint64_t given; /* a bit per slot */
+    uint64_t given;                       /* a bit per slot */
+    GiVec row_defaults[GI_ELEMENT_LIMIT]; /* of the table's rows */
     GiVec defaults[GI_SLOT_COUNT];
+    const GiType *type; /* defaults and required are those of this type */
+    uint64_t required;  /* a bit per slot */
     unsigned evidence;
     GlintDialect dialect; /* the attribute of the scene */
     int64_t scene_end;    /* offset behind `</scene>` */
     bool stopped;         /* no event counts any more */
     bool out_of_memory;
+    GlintStatus file_status; /* CANCELLED or THREAD when that happened while a file was loaded */
     bool camera_seen, image_seen; /* with or without errors */
     char encoding[40];            /* as declared */
 
@@ -81,6 +91,8 @@ typedef struct GiReader {
     size_t text_size;
     int64_t text_next; /* offset at which a further piece continues the last segment */
     bool text_overflow;
+    bool value_ready; /* `value` is what the text, all of it, says */
+    GiVec value;
     GiSegment segments[GI_SEGMENT_LIMIT];
     size_t segment_count;
 } GiReader;
@@ -95,6 +107,14 @@ static inline GiFrame *gi_reader_parent(GiReader *reader) {
 }
 static inline bool gi_reader_is_given(const GiReader *reader, GiSlot slot) {
     return (reader->given >> slot & 1) != 0;
+}
+
+static inline GiVec gi_reader_slot(const GiReader *reader, GiSlot slot) {
+    return gi_reader_is_given(reader, slot) ? reader->slots[slot].value : reader->defaults[slot];
+}
+static inline void gi_reader_put(GiReader *reader, GiSlot slot, GiVec value, GiPlace place) {
+    reader->slots[slot] = (GiSlotValue){value, place};
+    reader->given |= UINT64_C(1) << slot;
 }
 
 /* ---- reader.c */
@@ -117,11 +137,19 @@ bool gi_value_finish(GiReader *reader, const GiFrame *frame, GiVec *value);
 /* Whether a value passes the element's check; otherwise reports. */
 bool gi_value_check(
     GiReader *reader, const GiElement *element, GiVec value, GiPlace place, int length);
+/* Where the value begins in the file; the element itself when it is empty. */
+GiPlace gi_value_place(const GiReader *reader, const GiFrame *frame);
 /* Numbers without checks, for the table's defaults. */
 GiVec gi_value_parse_default(const char *text);
 
 /* ---- object.c: values to the model */
+/* The slots of one kind of object. */
+uint64_t gi_object_slots(GiKind kind);
 void gi_object_begin(GiReader *reader, GiFrame *frame);
+/* Puts the defaults of a type into force. */
+void gi_object_use_type(GiReader *reader, const GiType *type);
+/* Whether the object has all that its type requires; otherwise reports. Uses the type. */
+bool gi_object_is_complete(GiReader *reader, const GiFrame *frame);
 /* A value element of the parent (may be the scene, a group or another object) has this value. */
 void gi_object_set(
     GiReader *reader, GiFrame *parent, const GiElement *element, GiVec value, GiPlace place);
@@ -135,6 +163,13 @@ void gi_object_refer(GiReader *reader, GiFrame *frame, GiFrame *parent, const Gi
 void gi_object_name(GiReader *reader, const GiFrame *frame, GiNamed named);
 /* Remembers a value. */
 void gi_object_name_value(GiReader *reader, const GiFrame *frame, GiVec value);
+
+/* ---- shading.c: shaders, brdfs and textures */
+void gi_shading_finish_shader(GiReader *reader, GiFrame *frame, GiFrame *parent);
+void gi_shading_finish_brdf(GiReader *reader, GiFrame *frame, GiFrame *parent);
+void gi_shading_finish_texture(GiReader *reader, GiFrame *frame, GiFrame *parent);
+/* The parent of an element that stands for a shader has it. */
+void gi_shading_give(GiReader *reader, const GiFrame *frame, GiFrame *parent, uint32_t shader);
 
 /* ---- malformed.c */
 /* Reports what the parser stopped at. */

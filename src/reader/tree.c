@@ -3,7 +3,6 @@
  * the attributes mean. What the elements amount to is decided in object.c. */
 #include "reader/state.h"
 
-#include "reader/later.h"
 #include "reader/suggest.h"
 
 #include <string.h>
@@ -74,23 +73,31 @@ static bool push_text(GiReader *reader, const char *text, size_t size, uint32_t 
 
 static GiFrame *push_frame(GiReader *reader, const char *tag) {
     enum { TAG_SHOWN = 80 };
-    GiFrame frame = {.place = {.offset = XML_GetCurrentByteIndex(reader->parser)}};
-    size_t length = 0;
-    while (length < TAG_SHOWN && tag[length] != '\0') length++;
+    int64_t offset = XML_GetCurrentByteIndex(reader->parser);
     if (reader->frames.count >= GI_DEPTH_LIMIT) {
-        gi_report_add(&reader->report, frame.place, 1, "elements are nested more than %d deep",
-            GI_DEPTH_LIMIT);
+        gi_report_add(&reader->report, (GiPlace){.offset = offset}, 1,
+            "elements are nested more than %d deep", GI_DEPTH_LIMIT);
         gi_reader_stop(reader);
         return NULL;
     }
-    if (!gi_array_reserve(reader->memory, &reader->frames, 1) ||
-        !push_text(reader, tag, length, &frame.tag)) {
+    if (reader->tags.count > UINT32_MAX / 2 ||
+        !gi_array_reserve(reader->memory, &reader->frames, 1) ||
+        !gi_array_reserve(reader->memory, &reader->tags, TAG_SHOWN + 1)) {
         gi_reader_out_of_memory(reader);
         return NULL;
     }
-    frame.name = (uint32_t)reader->tags.count - 1; /* an empty string, until there is a name */
-    reader->frames.data[reader->frames.count++] = frame;
-    return gi_reader_top(reader);
+    char *copy = reader->tags.data + reader->tags.count;
+    size_t length = 0;
+    for (; length < TAG_SHOWN && tag[length] != '\0'; length++) copy[length] = tag[length];
+    copy[length] = '\0';
+    /* Written where it stays: copying what was just put together member by member stalls. */
+    GiFrame *frame = &reader->frames.data[reader->frames.count++];
+    memset(frame, 0, sizeof *frame);
+    frame->place.offset = offset;
+    frame->tag = (uint32_t)reader->tags.count;
+    frame->name = frame->tag + (uint32_t)length; /* an empty string, until there is a name */
+    reader->tags.count += length + 1;
+    return frame;
 }
 
 static void pop_frame(GiReader *reader) {
@@ -101,7 +108,7 @@ static void pop_frame(GiReader *reader) {
 /* ---------------------------------------------------------------- unknown elements */
 
 static void place_words(const GiFrame *parent, char *buffer, size_t size) {
-    uint32_t contexts = parent->type != NULL ? parent->type->context : parent->contexts;
+    GiContexts contexts = parent->type != NULL ? parent->type->context : parent->contexts;
     gi_context_text(contexts, buffer, size);
 }
 
@@ -130,20 +137,14 @@ static const GiElement *report_element(
         return NULL;
     }
     place_words(parent, here, sizeof here);
-    const GiElement *elsewhere = gi_element_find(&reader->elements, tag, UINT32_MAX);
+    const GiElement *elsewhere = gi_element_find(&reader->elements, tag, GI_ANYWHERE);
     if (elsewhere == NULL && size == 5 && gi_edit_distance(tag, 5, "scene", 5, 0) == 0) {
         gi_report_add(
             report, place, length, "`scene` is the root element and cannot stand in %s", here);
         return NULL;
     }
-    const GiLater *later = gi_later_element(tag);
-    if (later != NULL) {
-        reader->evidence |= later->evidence;
-        gi_report_add(report, place, length, "`%s` is not supported yet", later->name);
-        return NULL;
-    }
     if (elsewhere != NULL) {
-        uint32_t contexts = 0;
+        GiContexts contexts = 0;
         for (const GiElement *e = gi_elements; e->name != NULL; e++) {
             if (strcmp(e->name, elsewhere->name) == 0) contexts |= e->contexts;
         }
@@ -170,7 +171,7 @@ static const GiElement *report_element(
         gi_suggestion_offer(&suggestion, e->name);
     }
     if (suggestion.best != NULL && strcmp(suggestion.best, "scene") != 0) {
-        const GiElement *near = gi_element_find(&reader->elements, suggestion.best, UINT32_MAX);
+        const GiElement *near = gi_element_find(&reader->elements, suggestion.best, GI_ANYWHERE);
         gi_context_text(near->contexts, there, sizeof there);
         gi_report_add(report, place, length,
             "unknown element `%s` in %s: `%s` is near, but belongs in %s", quote, here, near->name,
@@ -217,25 +218,26 @@ static void report_attribute(
                  : "name and ref, and its value as text");
 }
 
+static bool is(const char *a, const char *b) { return a[0] == b[0] && strcmp(a, b) == 0; }
+
 static bool read_attributes(
     GiReader *reader, const GiElement *element, const XML_Char **list, Attributes *attributes) {
     bool scene = element->kind == GI_KIND_SCENE, good = true;
-    *attributes = (Attributes){.name = NULL};
     for (int i = 0; list[2 * i] != NULL; i++) {
         const char *name = list[2 * i], *value = list[2 * i + 1];
         bool long_value = false;
-        if (strcmp(name, "type") == 0 && gi_kind_is_object(element->kind) && !scene) {
+        if (is(name, "type") && gi_kind_is_object(element->kind) && !scene) {
             attributes->type = value;
             attributes->type_index = i;
-        } else if (strcmp(name, "ref") == 0 && !scene) {
+        } else if (is(name, "ref") && !scene) {
             attributes->ref = value;
             attributes->ref_index = i;
             long_value = strlen(value) > GI_NAME_LIMIT;
-        } else if (strcmp(name, "name") == 0) {
+        } else if (is(name, "name")) {
             attributes->name = value;
             attributes->name_index = i;
             long_value = strlen(value) > GI_NAME_LIMIT;
-        } else if (strcmp(name, "dialect") == 0 && scene) {
+        } else if (is(name, "dialect") && scene) {
             attributes->dialect = value;
             attributes->dialect_index = i;
         } else {
@@ -279,12 +281,14 @@ static void read_dialect(GiReader *reader, const char *name, int index) {
  * that what stands inside is judged by it. */
 static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attributes) {
     GiKind kind = frame->element->kind;
-    const char *noun = strchr(gi_kind_text(kind), ' ') + 1, *name = attributes->type;
+    const char *name = attributes->type;
     char list[240], quote[GI_QUOTE_SIZE];
     if (name == NULL) {
-        if (kind == GI_KIND_CAMERA) frame->type = gi_type_find("PerspectiveCamera", kind);
-        if (kind == GI_KIND_LIGHT) frame->type = gi_type_find("Light", kind);
-        if (frame->type != NULL) return;
+        const char *implied = frame->element->type;
+        if (implied != NULL) {
+            frame->type = gi_type_find(implied, kind);
+            return;
+        }
         if (frame->broken) return; /* by another attribute, which may have been meant for it */
         frame->broken = true;
         gi_type_list_text(kind, list, sizeof list);
@@ -307,13 +311,7 @@ static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attrib
     }
     int length;
     GiPlace place = gi_tree_attribute(reader, attributes->type_index, true, &length);
-    const GiLater *later = gi_later_type(name, kind);
-    if (later != NULL) {
-        reader->evidence |= later->evidence;
-        frame->skip = GI_SKIP_UNKNOWN;
-        gi_report_add(&reader->report, place, length, "`%s` is not supported yet", later->name);
-        return;
-    }
+    const char *noun = strchr(gi_kind_text(kind), ' ') + 1;
     gi_quote(quote, name, strlen(name));
     gi_type_list_text(kind, list, sizeof list);
     for (const GiType *type = gi_types; type->name != NULL; type++) {
@@ -356,10 +354,7 @@ static void read_ref(GiReader *reader, GiFrame *frame, const Attributes *attribu
     frame->skip = GI_SKIP_IGNORED;
     if (named != NULL && !named->broken) {
         GiKind named_kind = (GiKind)named->kind;
-        /* A vector, a point and a colour are three numbers alike. */
-        bool same =
-            kind == named_kind || (gi_kind_count(kind) == 3 && gi_kind_count(named_kind) == 3);
-        if (same) {
+        if (gi_kind_fits(named_kind, kind)) {
             gi_object_refer(reader, frame, parent, named);
             return;
         }
@@ -427,7 +422,7 @@ void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **lis
         bool root = strlen(tag) == 5 && gi_edit_distance(tag, 5, "scene", 5, 0) == 0;
         element = root ? &gi_elements[0] : NULL;
     } else {
-        element = gi_element_find(&reader->elements, tag, parent->contexts);
+        element = gi_element_guess(&reader->elements, tag, parent->contexts);
     }
     if (element == NULL) {
         /* Of a type that is not known, nobody can say what belongs in it. */
@@ -470,11 +465,6 @@ void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **lis
         return;
     }
     if (element->kind != GI_KIND_SCENE) read_type(reader, frame, &attributes);
-    if (frame->skip == GI_SKIP_UNKNOWN) {
-        parent->broken = true;
-        name_skipped(reader, list);
-        return;
-    }
     frame->contexts = frame->type != NULL ? frame->type->context : gi_kind_contexts(element->kind);
     gi_object_begin(reader, frame);
 }
@@ -490,7 +480,9 @@ void XMLCALL gi_tree_end(void *user, const XML_Char *tag) {
         } else {
             GiVec value;
             if (!frame->broken && gi_value_finish(reader, frame, &value)) {
-                gi_object_set(reader, parent, frame->element, value, frame->place);
+                bool text = frame->element->kind == GI_KIND_STRING;
+                gi_object_set(reader, parent, frame->element, value,
+                    text ? gi_value_place(reader, frame) : frame->place);
                 gi_object_name_value(reader, frame, value);
             } else {
                 parent->broken = true;

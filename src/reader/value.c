@@ -12,6 +12,43 @@
 
 static bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 
+/* ---------------------------------------------------------------- correct values */
+
+static bool is_whole(const char *text, size_t size) {
+    size_t i = size > 0 && (text[0] == '-' || text[0] == '+');
+    if (i == size) return false;
+    for (; i < size; i++) {
+        if (text[i] < '0' || text[i] > '9') return false;
+    }
+    return true;
+}
+
+static double *component(GiVec *value, int index) {
+    return index == 0 ? &value->x : index == 1 ? &value->y : &value->z;
+}
+
+/* False when anything is wrong. */
+static bool read_quickly(const char *text, size_t size, GiKind kind, GiVec *value) {
+    int count = gi_kind_count(kind);
+    size_t i = 0;
+    *value = gi_vec(0, 0, 0);
+    for (int n = 0; n < count; n++) {
+        size_t used;
+        while (i < size && is_space(text[i])) i++;
+        if (gi_number_read(text + i, size - i, component(value, n), &used) != GI_NUMBER_OK ||
+            (i + used < size && !is_space(text[i + used]))) {
+            return false;
+        }
+        if ((kind == GI_KIND_INTEGER || kind == GI_KIND_INTEGER_PAIR) &&
+            (!is_whole(text + i, used) || fabs(*component(value, n)) > INT_MAX)) {
+            return false;
+        }
+        i += used;
+    }
+    while (i < size && is_space(text[i])) i++;
+    return i == size;
+}
+
 /* ---------------------------------------------------------------- collecting */
 
 void gi_value_begin(GiReader *reader) {
@@ -19,6 +56,7 @@ void gi_value_begin(GiReader *reader) {
     reader->segment_count = 0;
     reader->text_next = -1;
     reader->text_overflow = false;
+    reader->value_ready = false;
 }
 
 static void append(GiReader *reader, const char *text, size_t size, int64_t offset) {
@@ -56,11 +94,16 @@ static GiPlace place_of(const GiReader *reader, const GiFrame *frame, size_t ind
 
 void gi_value_append(GiReader *reader, const char *text, size_t size, int64_t offset) {
     if (reader->text_overflow) return;
-    /* The common case: short text, kept as it is. */
+    /* The common case: short text, kept as it is. Mostly the first piece is all there is; it is
+     * read here, since reading the copy would have to wait for the copy. */
     if (size <= GI_TEXT_LIMIT / 2 && reader->text_size <= GI_TEXT_LIMIT / 2 - size) {
+        GiKind kind = gi_reader_top(reader)->element->kind;
+        reader->value_ready =
+            reader->text_size == 0 && read_quickly(text, size, kind, &reader->value);
         append(reader, text, size, offset);
         return;
     }
+    reader->value_ready = false;
     /* Otherwise white space shrinks to one blank, so that any amount of it is bounded. */
     for (size_t i = 0; i < size;) {
         size_t begin = i;
@@ -105,15 +148,6 @@ static int token_length(const GiReader *reader, Token token) {
     return gi_text_length(reader->text + token.begin, token.end - token.begin);
 }
 
-static bool is_whole(const char *text, size_t size) {
-    size_t i = size > 0 && (text[0] == '-' || text[0] == '+');
-    if (i == size) return false;
-    for (; i < size; i++) {
-        if (text[i] < '0' || text[i] > '9') return false;
-    }
-    return true;
-}
-
 /* One number that is the whole token; null, or what is wrong with it. */
 static const char *read_number(const char *text, size_t size, GiKind kind, double *value) {
     size_t used;
@@ -142,30 +176,6 @@ static const char *read_number(const char *text, size_t size, GiKind kind, doubl
     if (whole && !is_whole(text, size)) return "is whole: write it without a point or exponent";
     if (status == GI_NUMBER_TOO_LARGE) return "is too large: the limit is about 1.8e308";
     return NULL;
-}
-
-static double *component(GiVec *value, int index) {
-    return index == 0 ? &value->x : index == 1 ? &value->y : &value->z;
-}
-
-static bool read_quickly(const GiReader *reader, GiKind kind, int count, GiVec *value) {
-    const char *text = reader->text;
-    size_t size = reader->text_size, i = 0;
-    for (int n = 0; n < count; n++) {
-        size_t used;
-        while (i < size && is_space(text[i])) i++;
-        if (gi_number_read(text + i, size - i, component(value, n), &used) != GI_NUMBER_OK ||
-            (i + used < size && !is_space(text[i + used]))) {
-            return false;
-        }
-        if ((kind == GI_KIND_INTEGER || kind == GI_KIND_INTEGER_PAIR) &&
-            (!is_whole(text + i, used) || fabs(*component(value, n)) > INT_MAX)) {
-            return false;
-        }
-        i += used;
-    }
-    while (i < size && is_space(text[i])) i++;
-    return i == size;
 }
 
 /* ---------------------------------------------------------------- errors */
@@ -239,6 +249,36 @@ static bool read_choice(GiReader *reader, const GiFrame *frame, GiVec *value) {
     return false;
 }
 
+/* The text without the white space round it. */
+static Token trim(const GiReader *reader) {
+    Token all = {0, reader->text_size};
+    while (all.begin < all.end && is_space(reader->text[all.begin])) all.begin++;
+    while (all.begin < all.end && is_space(reader->text[all.end - 1])) all.end--;
+    return all;
+}
+
+/* The value is the number of the text among the strings, and its length in characters. */
+static bool read_string(GiReader *reader, const GiFrame *frame, GiVec *value) {
+    Token all = trim(reader);
+    if (all.begin == all.end) {
+        const char *tag = reader->tags.data + frame->tag;
+        gi_report_add(&reader->report, frame->place, 1 + gi_text_length(tag, strlen(tag)),
+            "%s is empty: it is %s", frame->element->name, frame->element->help);
+        return false;
+    }
+    char text[GI_TEXT_LIMIT + 1];
+    size_t size = all.end - all.begin;
+    memcpy(text, reader->text + all.begin, size);
+    text[size] = '\0';
+    uint32_t number;
+    if (!gi_names_intern(&reader->strings, text, &number)) {
+        gi_reader_out_of_memory(reader);
+        return false;
+    }
+    *value = gi_vec(number, gi_text_length(text, size), 0);
+    return true;
+}
+
 /* ---------------------------------------------------------------- checks */
 
 static bool passes(GiCheck check, GiVec value) {
@@ -249,6 +289,8 @@ static bool passes(GiCheck check, GiVec value) {
     case GI_CHECK_LENGTH: return !gi_vec_is_zero(value);
     case GI_CHECK_NO_ZERO: return value.x != 0 && value.y != 0 && value.z != 0;
     case GI_CHECK_ANGLE: return value.x > 0 && value.x < 180;
+    case GI_CHECK_BIT: return value.x == 0 || value.x == 1;
+    case GI_CHECK_DEPTH: return value.x >= 1 && value.x <= GI_PATH_LIMIT;
     case GI_CHECK_IMAGE_SIZE: return gi_scene_check_image_size(value.x, value.y) == NULL;
     }
     return true;
@@ -282,6 +324,13 @@ bool gi_value_check(
             "%s must be an angle between 0 and 180 degrees, both excluded; found %g", name,
             value.x);
         break;
+    case GI_CHECK_BIT:
+        gi_report_add(report, place, length, "%s must be 0 or 1; found %.0f", name, value.x);
+        break;
+    case GI_CHECK_DEPTH:
+        gi_report_add(report, place, length, "%s must be from 1 to %d; found %.0f", name,
+            GI_PATH_LIMIT, value.x);
+        break;
     case GI_CHECK_IMAGE_SIZE:
         gi_report_add(report, place, length, "%s; found %.0f x %.0f",
             gi_scene_check_image_size(value.x, value.y), value.x, value.y);
@@ -292,19 +341,22 @@ bool gi_value_check(
 
 bool gi_value_finish(GiReader *reader, const GiFrame *frame, GiVec *value) {
     const GiElement *element = frame->element;
-    int count = gi_kind_count(element->kind);
-    *value = gi_vec(0, 0, 0);
     if (element->kind == GI_KIND_CHOICE) return read_choice(reader, frame, value);
-    if (!read_quickly(reader, element->kind, count, value)) {
-        report_tokens(reader, frame, count);
+    if (element->kind == GI_KIND_STRING) return read_string(reader, frame, value);
+    if (!reader->value_ready &&
+        !read_quickly(reader->text, reader->text_size, element->kind, &reader->value)) {
+        report_tokens(reader, frame, gi_kind_count(element->kind));
         return false;
     }
+    *value = reader->value;
     if (passes(element->check, *value)) return true;
-    size_t begin = 0, end = reader->text_size;
-    while (is_space(reader->text[begin])) begin++;
-    while (is_space(reader->text[end - 1])) end--;
-    return gi_value_check(reader, element, *value, place_of(reader, frame, begin),
-        token_length(reader, (Token){begin, end}));
+    Token all = trim(reader);
+    return gi_value_check(
+        reader, element, *value, place_of(reader, frame, all.begin), token_length(reader, all));
+}
+
+GiPlace gi_value_place(const GiReader *reader, const GiFrame *frame) {
+    return place_of(reader, frame, trim(reader).begin);
 }
 
 GiVec gi_value_parse_default(const char *text) {

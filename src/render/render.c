@@ -9,7 +9,7 @@ typedef struct Render {
     const GiWorld *world;
     const GiRenderArea *area;
     const GlintMonitor *monitor;
-    float *pixels;
+    const GiRenderTarget *target;
     GiTileScratch **scratch;
     GiRenderCounts *counts; /* a worker each */
     int side;               /* of a tile */
@@ -42,7 +42,7 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
         int tile = atomic_fetch_add_explicit(&render->next, 1, memory_order_relaxed);
         if (tile >= render->columns * render->rows || atomic_load(&render->stop)) break;
         int x = tile % render->columns * render->side, y = tile / render->columns * render->side;
-        gi_tile_draw(render->world, render->area, x, y, render->side, render->pixels,
+        gi_tile_draw(render->world, render->area, x, y, render->side, render->target,
             render->scratch[worker], &counts, &control);
         atomic_fetch_add_explicit(&render->done, 1, memory_order_relaxed);
         if (worker == 0) report(render);
@@ -50,6 +50,7 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
     /* A worker may be called more than once. */
     render->counts[worker].camera_rays += counts.camera_rays;
     render->counts[worker].shadow_rays += counts.shadow_rays;
+    render->counts[worker].other_rays += counts.other_rays;
 }
 
 /* Large tiles trace faster, many tiles share out better: the largest side that leaves every worker
@@ -62,10 +63,10 @@ static int tile_side(const GiRenderArea *area, size_t workers) {
 }
 
 GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *area,
-    const GlintMonitor *monitor, float *pixels, GiRenderCounts *counts) {
+    const GlintMonitor *monitor, const GiRenderTarget *target, GiRenderCounts *counts) {
     GiMemory *memory = world->scene->memory;
     size_t workers = (size_t)gi_pool_worker_count(pool);
-    Render render = {.world = world, .area = area, .monitor = monitor, .pixels = pixels};
+    Render render = {.world = world, .area = area, .monitor = monitor, .target = target};
     render.side = tile_side(area, workers);
     render.columns = (area->crop_width + render.side - 1) / render.side;
     render.rows = (area->crop_height + render.side - 1) / render.side;
@@ -78,7 +79,7 @@ GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *ar
     if (render.scratch == NULL || render.counts == NULL) goto done;
     memset(render.counts, 0, counts_size);
     for (size_t i = 0; i < workers; i++) {
-        render.scratch[i] = gi_tile_scratch_create(memory);
+        render.scratch[i] = gi_tile_scratch_create(world, target);
         if (render.scratch[i] == NULL) goto done;
     }
     report(&render);
@@ -88,9 +89,13 @@ GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *ar
     for (size_t i = 0; i < workers; i++) {
         counts->camera_rays += render.counts[i].camera_rays;
         counts->shadow_rays += render.counts[i].shadow_rays;
+        counts->other_rays += render.counts[i].other_rays;
     }
     bool whole = atomic_load(&render.done) == render.columns * render.rows;
     status = atomic_load(&render.stop) && !whole ? GLINT_CANCELLED : GLINT_OK;
+    for (size_t i = 0; i < workers; i++) {
+        if (gi_tile_out_of_memory(render.scratch[i])) status = GLINT_ERROR_MEMORY;
+    }
 done:
     for (size_t i = 0; render.scratch != NULL && i < workers; i++) {
         gi_tile_scratch_destroy(memory, render.scratch[i]);

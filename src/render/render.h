@@ -6,6 +6,7 @@
 
 typedef struct GiRenderCounts {
     uint64_t camera_rays, shadow_rays;
+    uint64_t other_rays; /* mirrored, refracted, scattered */
 } GiRenderCounts;
 
 /* The part of a picture to draw; x and y count from the top left corner. */
@@ -13,6 +14,14 @@ typedef struct GiRenderArea {
     int width, height, x, y, crop_width, crop_height;
 } GiRenderArea;
 
-/* pixels: crop_width * crop_height * 3 floats, top row first. Errors: MEMORY, CANCELLED. */
+/* What to draw, and where to: crop_width * crop_height values or triples, top row first. All but
+ * color may be null. */
+typedef struct GiRenderTarget {
+    float *color, *depth, *normal, *albedo;
+    uint32_t *surface;
+    int light; /* as in GlintRenderDesc */
+} GiRenderTarget;
+
+/* Errors: MEMORY, CANCELLED. */
 GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *area,
-    const GlintMonitor *monitor, float *pixels, GiRenderCounts *counts);
+    const GlintMonitor *monitor, const GiRenderTarget *target, GiRenderCounts *counts);

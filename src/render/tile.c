@@ -1,60 +1,55 @@
 /* SPDX-License-Identifier: MIT */
-#include "render/tile.h"
+#include "render/stage.h"
 
-#include "render/regroup.h"
-#include "shade/shade.h"
+#include <string.h>
 
 enum {
     BLOCK_SIDE = 32, /* a bundle of camera rays: 32 x 32 pixels */
     PACKET_SIDE = 4, /* a packet: 4 x 4 */
     PACKETS_ACROSS = BLOCK_SIDE / PACKET_SIDE,
-    STRIDE = GI_TILE_SIDE_LIMIT,
-    PIXEL_COUNT = STRIDE * STRIDE
+    STRIDE = GI_TILE_STRIDE
 };
 
-/* A camera ray that met something. */
-typedef struct Hit {
-    GiVec point, normal, toward_viewer;
-    double error; /* distance within which a ray from here might meet its own surface */
-    uint32_t pixel, shader;
-    uint32_t skip; /* what shadow rays from here do not meet, or GI_SHAPE_NONE */
-} Hit;
+#define SEEN_SIZE (GI_TILE_PIXELS * sizeof(GiSeen))
 
-/* What a light will add to a hit unless something is in between: one struct with all that the
- * shadow ray needs, because rays are taken in another order than hits. */
-typedef struct Pending {
-    GiVec point, light;
-    double t_min; /* of the ray from the point to the light, whose t is 1 there */
-    uint32_t pixel, skip;
-} Pending;
-
-struct GiTileScratch {
-    GiBundle bundle;
-    GiRegroup regroup;
-    Hit hits[PIXEL_COUNT];
-    Pending pending[PIXEL_COUNT];
-    double across[STRIDE], up[STRIDE]; /* window coordinates of columns and rows */
-    GiVec color[PIXEL_COUNT];          /* of the sample being drawn */
-    GiVec sum[PIXEL_COUNT];            /* of the samples before */
-    int hit_count;
-};
-
-GiTileScratch *gi_tile_scratch_create(GiMemory *memory) {
+GiTileScratch *gi_tile_scratch_create(const GiWorld *world, const GiRenderTarget *target) {
+    GiMemory *memory = world->scene->memory;
+    size_t shader_count = world->scene->shaders.count;
     GiTileScratch *scratch = gi_memory_allocate_lines(memory, 1, sizeof *scratch);
-    if (scratch != NULL) gi_regroup_init(&scratch->regroup);
+    if (scratch == NULL) return NULL;
+    bool sees = target->depth != NULL || target->normal != NULL || target->albedo != NULL ||
+                target->surface != NULL;
+    memset(&scratch->flights, 0, sizeof scratch->flights);
+    memset(&scratch->ranges, 0, sizeof scratch->ranges);
+    scratch->shader_count = shader_count;
+    scratch->point_count = scratch->segment_count = 0;
+    scratch->weighted = scratch->out_of_memory = false;
+    scratch->head = gi_memory_allocate(memory, shader_count * sizeof *scratch->head);
+    scratch->seen = sees ? gi_memory_allocate(memory, SEEN_SIZE) : NULL;
+    if (scratch->head == NULL || (sees && scratch->seen == NULL)) {
+        gi_tile_scratch_destroy(memory, scratch);
+        return NULL;
+    }
+    for (size_t i = 0; i < shader_count; i++) scratch->head[i] = GI_NONE;
+    world->kernel->regroup_init(&scratch->regroup);
     return scratch;
 }
 
 void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch) {
-    gi_memory_free_lines(memory, scratch, 1, sizeof(GiTileScratch));
+    if (scratch == NULL) return;
+    gi_array_free(memory, &scratch->flights);
+    gi_array_free(memory, &scratch->ranges);
+    gi_memory_free(memory, scratch->head, scratch->shader_count * sizeof *scratch->head);
+    gi_memory_free(memory, scratch->seen, SEEN_SIZE);
+    gi_memory_free_lines(memory, scratch, 1, sizeof *scratch);
 }
+
+bool gi_tile_out_of_memory(const GiTileScratch *scratch) { return scratch->out_of_memory; }
 
 /* The tile's pixels that lie in the area. */
 typedef struct Extent {
     int x, y, width, height;
 } Extent;
-
-/* ---------------------------------------------------------------- camera rays */
 
 static bool stopped(const GiTileControl *control) {
     const GlintMonitor *monitor = control->monitor;
@@ -64,42 +59,36 @@ static bool stopped(const GiTileControl *control) {
     return atomic_load_explicit(control->stop, memory_order_relaxed);
 }
 
+bool gi_stage_stopped(const GiStage *stage) { return stopped(stage->control); }
+
 /* The same for the kernels. */
 static bool ask(const void *control) { return stopped(control); }
 
-static void keep_hit(const GiWorld *world, GiTileScratch *scratch, int i, uint32_t pixel) {
-    const GiBundle *bundle = &scratch->bundle;
-    GiShapeRef ref = {bundle->shape[i]};
-    GiVec origin = {bundle->ox[i], bundle->oy[i], bundle->oz[i]};
-    GiVec direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]};
-    GiSurfacePoint at = gi_shape_point(
-        &world->shapes, ref, origin, direction, bundle->t[i], world->rules->cone_geometric);
-    GiShapeRef own = gi_shape_unplaced(&world->shapes, ref);
-    bool skip = !world->rules->sphere_shadows_itself && gi_shape_kind(own) == GI_SHAPE_SPHERE;
-    uint32_t shader = world->shapes.info[gi_shape_kind(own)][gi_shape_index(own)].shader;
-    scratch->hits[scratch->hit_count++] = (Hit){at.point, at.normal, gi_negate(direction), at.error,
-        pixel, shader, skip ? ref.bits : GI_SHAPE_NONE};
-    scratch->color[pixel] = gi_shade_emit(&world->scene->shaders.data[shader], at.normal);
-}
+/* ---------------------------------------------------------------- camera rays */
 
 /* The rays of a parallel camera have no point in common. */
-static void trace_apart(const GiWorld *world, GiBundle *bundle, const GiTileControl *control) {
+static void trace_apart(const GiStage *stage) {
+    const GiWorld *world = stage->world;
+    GiBundle *bundle = &stage->scratch->bundle;
     for (int i = 0; i < bundle->count; i++) {
         bundle->shape[i] = GI_SHAPE_NONE;
-        if (i % 16 == 0 && stopped(control)) continue;
+        if (i % 16 == 0 && gi_stage_stopped(stage)) continue;
         GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
             {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
-            bundle->skip[i]};
+            bundle->skip[i], bundle->skip_instance[i]};
         GiTraceHit hit;
         bool any = world->kernel->closest(&world->trace, &ray, &hit);
         bundle->shape[i] = any ? hit.shape.bits : GI_SHAPE_NONE;
-        if (any) bundle->t[i] = hit.t;
+        if (!any) continue;
+        bundle->t[i] = hit.t;
+        bundle->instance[i] = hit.instance;
     }
 }
 
 /* One bundle: the pixels of a block, packet by packet. */
-static void trace_block(const GiWorld *world, const Extent *extent, int block_x, int block_y,
-    GiTileScratch *scratch, const GiTileControl *control) {
+static void trace_block(const GiStage *stage, const Extent *extent, int block_x, int block_y) {
+    const GiWorld *world = stage->world;
+    GiTileScratch *scratch = stage->scratch;
     GiBundle *bundle = &scratch->bundle;
     uint32_t pixels[GI_BUNDLE_SIZE];
     int count = 0;
@@ -117,7 +106,7 @@ static void trace_block(const GiWorld *world, const Extent *extent, int block_x,
             bundle->dz[count] = direction.z;
             bundle->t_min[count] = world->eye_error;
             bundle->t_max[count] = INFINITY;
-            bundle->skip[count] = GI_SHAPE_NONE;
+            bundle->skip[count] = bundle->skip_instance[count] = GI_SHAPE_NONE;
             pixels[count++] = (uint32_t)(y * STRIDE + x);
         }
     }
@@ -125,104 +114,22 @@ static void trace_block(const GiWorld *world, const Extent *extent, int block_x,
     bundle->count = count;
     bundle->apex = world->view.eye;
     bundle->side = world->view.across;
-    bundle->stop = ask;
-    bundle->stop_context = control;
     if (world->view.parallel) {
-        trace_apart(world, bundle, control);
+        trace_apart(stage);
     } else {
         world->kernel->bundle_closest(&world->trace, bundle);
     }
-    for (int i = 0; i < count; i++) {
-        if (bundle->shape[i] != GI_SHAPE_NONE) {
-            keep_hit(world, scratch, i, pixels[i]);
-        } else {
-            scratch->color[pixels[i]] = world->scene->back_color;
-        }
-    }
-}
-
-/* ---------------------------------------------------------------- lights */
-
-/* Traces the shadow rays, in an order of the kernels' liking, and adds what arrives. */
-static void trace_pending(const GiWorld *world, const GiLight *light, int count,
-    GiTileScratch *scratch, const GiTileControl *control) {
-    GiBundle *bundle = &scratch->bundle;
-    gi_regroup(&scratch->regroup, count);
-    for (int begin = 0; begin < count && !stopped(control); begin += GI_BUNDLE_SIZE) {
-        const uint16_t *order = scratch->regroup.order + begin;
-        bundle->count = count - begin < GI_BUNDLE_SIZE ? count - begin : GI_BUNDLE_SIZE;
-        bundle->apex = light->position;
-        bundle->side = gi_vec(0, 0, 0);
-        bundle->stop = ask;
-        bundle->stop_context = control;
-        for (int i = 0; i < bundle->count; i++) {
-            const Pending *pending = &scratch->pending[order[i]];
-            bundle->ox[i] = pending->point.x;
-            bundle->oy[i] = pending->point.y;
-            bundle->oz[i] = pending->point.z;
-            bundle->dx[i] = light->position.x - pending->point.x;
-            bundle->dy[i] = light->position.y - pending->point.y;
-            bundle->dz[i] = light->position.z - pending->point.z;
-            bundle->t_min[i] = pending->t_min;
-            bundle->t_max[i] = 1;
-            bundle->skip[i] = pending->skip;
-        }
-        world->kernel->bundle_any(&world->trace, bundle);
-        for (int i = 0; i < bundle->count; i++) {
-            if (bundle->shape[i] != GI_SHAPE_NONE) continue;
-            const Pending *pending = &scratch->pending[order[i]];
-            GiVec *color = &scratch->color[pending->pixel];
-            *color = gi_add(*color, pending->light);
-        }
-    }
-}
-
-static void add_ambient(const GiWorld *world, const GiLight *light, GiTileScratch *scratch) {
-    for (int i = 0; i < scratch->hit_count; i++) {
-        const Hit *hit = &scratch->hits[i];
-        const GiShader *shader = &world->scene->shaders.data[hit->shader];
-        GiVec *color = &scratch->color[hit->pixel];
-        *color = gi_add(*color, gi_shade_ambient(shader, light, hit->normal));
-    }
-}
-
-/* Adds one point light to all hits. */
-static void add_light(const GiWorld *world, const GiLight *light, GiTileScratch *scratch,
-    GiRenderCounts *counts, const GiTileControl *control) {
-    const GiRules *rules = world->rules;
-    GiRegroup *regroup = &scratch->regroup;
-    int count = 0;
-    for (int i = 0; i < scratch->hit_count; i++) {
-        const Hit *hit = &scratch->hits[i];
-        GiVec d = gi_sub(light->position, hit->point);
-        double square = gi_dot(d, d);
-        if (!(square > 0)) continue; /* the light is on the surface */
-        double inverse = 1 / sqrt(square);
-        const GiShader *shader = &world->scene->shaders.data[hit->shader];
-        GiVec factor =
-            gi_shade_reflect(shader, rules, hit->normal, hit->toward_viewer, gi_scale(d, inverse));
-        GiVec adds = gi_multiply(gi_shade_light(light, rules, square), factor);
-        if (gi_vec_is_zero(adds)) continue;
-        double away = rules->shadow_distance > 0 ? rules->shadow_distance : hit->error;
-        scratch->pending[count] =
-            (Pending){hit->point, adds, away * inverse, hit->pixel, hit->skip};
-        /* Of unit length, since scenes may be larger or smaller than a float can be. */
-        regroup->x[count] = (float)(d.x * inverse);
-        regroup->y[count] = (float)(d.y * inverse);
-        regroup->z[count] = (float)(d.z * inverse);
-        count++;
-    }
-    if (count > 0) trace_pending(world, light, count, scratch, control);
-    counts->shadow_rays += (uint64_t)count;
+    gi_surface_bundle(stage, pixels);
 }
 
 /* ---------------------------------------------------------------- the tile */
 
 /* One of the n x n samples of every pixel. */
-static void draw_sample(const GiWorld *world, const GiRenderArea *area, const Extent *extent,
-    double offset_x, double offset_y, GiTileScratch *scratch, GiRenderCounts *counts,
-    const GiTileControl *control) {
-    scratch->hit_count = 0;
+static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Extent *extent,
+    double offset_x, double offset_y) {
+    GiTileScratch *scratch = stage->scratch;
+    scratch->point_count = scratch->segment_count = 0;
+    scratch->weighted = false;
     for (int x = 0; x < extent->width; x++) {
         scratch->across[x] = (extent->x + x + offset_x) / area->width;
     }
@@ -232,51 +139,90 @@ static void draw_sample(const GiWorld *world, const GiRenderArea *area, const Ex
     }
     for (int y = 0; y < extent->height; y += BLOCK_SIDE) {
         for (int x = 0; x < extent->width; x += BLOCK_SIDE) {
-            if (stopped(control)) return;
-            trace_block(world, extent, x, y, scratch, control);
+            if (gi_stage_stopped(stage)) return;
+            trace_block(stage, extent, x, y);
         }
     }
-    counts->camera_rays += (uint64_t)extent->width * (uint64_t)extent->height;
-    const GiScene *scene = world->scene;
-    for (size_t i = 0; i < scene->lights.count && !stopped(control); i++) {
-        const GiLight *light = &scene->lights.data[i];
-        if (light->type == GLINT_LIGHT_POINT) {
-            add_light(world, light, scratch, counts, control);
-        } else {
-            add_ambient(world, light, scratch);
+    stage->counts->camera_rays += (uint64_t)extent->width * (uint64_t)extent->height;
+    gi_lights_add(stage);
+    gi_flight_follow(stage);
+}
+
+static void store_color(
+    const GiTileScratch *scratch, int row, int width, int samples, double exposure, float *to) {
+    for (int i = row * STRIDE; i < row * STRIDE + width; i++) {
+        *to++ = (float)(scratch->sum[i].x / samples * exposure);
+        *to++ = (float)(scratch->sum[i].y / samples * exposure);
+        *to++ = (float)(scratch->sum[i].z / samples * exposure);
+    }
+}
+
+static void store_vec(float *to, GiVec v) {
+    to[0] = (float)v.x;
+    to[1] = (float)v.y;
+    to[2] = (float)v.z;
+}
+
+static void store_seen(
+    const GiSeen *seen, int width, int samples, size_t at, const GiRenderTarget *target) {
+    double part = 1.0 / samples;
+    for (int i = 0; i < width; i++, seen++, at++) {
+        double depth = seen->count > 0 ? seen->depth / seen->count : 0;
+        if (target->depth != NULL) target->depth[at] = (float)depth;
+        if (target->normal != NULL)
+            store_vec(target->normal + 3 * at, gi_scale(seen->normal, part));
+        if (target->albedo != NULL)
+            store_vec(target->albedo + 3 * at, gi_scale(seen->albedo, part));
+        if (target->surface != NULL) target->surface[at] = seen->surface;
+    }
+}
+
+/* The samples of a pixel are a grid of so many rows and columns. */
+static int grid_of(const GiScene *scene) {
+    int n = (int)floor(sqrt((double)scene->samples) + 0.5);
+    return n > 1 ? n : 1;
+}
+
+static void clear(const Extent *extent, GiTileScratch *scratch) {
+    for (int row = 0; row < extent->height; row++) {
+        for (int i = row * STRIDE; i < row * STRIDE + extent->width; i++) {
+            scratch->sum[i] = gi_vec(0, 0, 0);
+            if (scratch->seen != NULL) memset(&scratch->seen[i], 0, sizeof scratch->seen[i]);
+        }
+    }
+}
+
+static void add_sample(const Extent *extent, GiTileScratch *scratch) {
+    for (int row = 0; row < extent->height; row++) {
+        for (int i = row * STRIDE; i < row * STRIDE + extent->width; i++) {
+            scratch->sum[i] = gi_add(scratch->sum[i], scratch->color[i]);
         }
     }
 }
 
 void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
-    float *pixels, GiTileScratch *scratch, GiRenderCounts *counts, const GiTileControl *control) {
+    const GiRenderTarget *target, GiTileScratch *scratch, GiRenderCounts *counts,
+    const GiTileControl *control) {
     Extent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
     if (extent.width > side) extent.width = side;
     if (extent.height > side) extent.height = side;
-    const GiScene *scene = world->scene;
-    int n = (int)floor(sqrt((double)scene->samples) + 0.5);
-    if (n < 1) n = 1;
-    for (int row = 0; row < extent.height; row++) {
-        for (int i = 0; i < extent.width; i++) scratch->sum[row * STRIDE + i] = gi_vec(0, 0, 0);
-    }
+    GiStage stage = {
+        world, control, scratch, counts, target->light, (uint32_t)extent.x, (uint32_t)extent.y, 0};
+    scratch->bundle.stop = ask;
+    scratch->bundle.stop_context = control;
+    int n = grid_of(world->scene);
+    clear(&extent, scratch);
     for (int sample = 0; sample < n * n; sample++) {
-        draw_sample(world, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n, scratch,
-            counts, control);
+        stage.sample = (uint32_t)sample;
+        draw_sample(&stage, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n);
         if (stopped(control)) return;
-        for (int row = 0; row < extent.height; row++) {
-            for (int i = row * STRIDE; i < row * STRIDE + extent.width; i++) {
-                scratch->sum[i] = gi_add(scratch->sum[i], scratch->color[i]);
-            }
-        }
+        add_sample(&extent, scratch);
     }
-    double exposure = scene->exposure > 0 ? scene->exposure : 1;
+    double exposure = world->scene->exposure > 0 ? world->scene->exposure : 1;
     for (int row = 0; row < extent.height; row++) {
-        float *to = pixels + 3 * ((size_t)(y + row) * (size_t)area->crop_width + (size_t)x);
-        for (int column = 0; column < extent.width; column++) {
-            GiVec sum = scratch->sum[row * STRIDE + column];
-            *to++ = (float)(sum.x / (n * n) * exposure);
-            *to++ = (float)(sum.y / (n * n) * exposure);
-            *to++ = (float)(sum.z / (n * n) * exposure);
-        }
+        size_t at = (size_t)(y + row) * (size_t)area->crop_width + (size_t)x;
+        store_color(scratch, row, extent.width, n * n, exposure, target->color + 3 * at);
+        if (scratch->seen == NULL) continue;
+        store_seen(scratch->seen + row * STRIDE, extent.width, n * n, at, target);
     }
 }

@@ -10,8 +10,12 @@ enum { GI_TILE_SIDE_LIMIT = 128 };
 
 typedef struct GiTileScratch GiTileScratch;
 
-GiTileScratch *gi_tile_scratch_create(GiMemory *memory); /* null: no memory */
+GiTileScratch *gi_tile_scratch_create(
+    const GiWorld *world, const GiRenderTarget *target); /* null: no memory */
 void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch);
+
+/* Whether drawing stopped because memory was short. */
+bool gi_tile_out_of_memory(const GiTileScratch *scratch);
 
 /* How a tile learns that it is to stop: by the flag, and on the caller's thread by asking. */
 typedef struct GiTileControl {
@@ -22,4 +26,5 @@ typedef struct GiTileControl {
 /* Draws the part of the tile with corner (x, y) and the given side that lies in the area. control
  * is asked every few hundred rays; when it says stop the tile stays unfinished. */
 void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
-    float *pixels, GiTileScratch *scratch, GiRenderCounts *counts, const GiTileControl *control);
+    const GiRenderTarget *target, GiTileScratch *scratch, GiRenderCounts *counts,
+    const GiTileControl *control);

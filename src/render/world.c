@@ -123,6 +123,34 @@ static void point_shapes(GiWorld *world, const GiScene *scene) {
     }
 }
 
+/* ---------------------------------------------------------------- lights */
+
+static GlintStatus prepare_lights(GiWorld *world, const GiScene *scene, GlintError *error) {
+    const GiRules *rules = world->rules;
+    bool sampled = scene->integrator != GLINT_INTEGRATOR_POINT_LIGHT;
+    for (size_t i = 0; i < scene->lights.count; i++) {
+        const GiLight *light = &scene->lights.data[i];
+        GiLightRectangle rectangle = {.area = 0};
+        if (light->type == GLINT_LIGHT_RECTANGLE) {
+            if (!gi_rectangle_init(&rectangle, light->position, light->direction, light->up,
+                    light->width, light->height)) {
+                return gi_error_set(
+                    error, GLINT_ERROR_SCENE, "the upDir of a light is parallel to its normalDir");
+            }
+            if (rules->area_light_visible && sampled) world->has_large_lights = true;
+        }
+        if (!gi_array_push(scene->memory, &world->rectangles, rectangle)) {
+            return gi_error_memory(error);
+        }
+    }
+    world->sky_lights = rules->environment_lights && scene->environment.face > 0 && sampled;
+    if (!world->sky_lights) return GLINT_OK;
+    world->has_large_lights = true;
+    return gi_environment_sampler_init(&world->sky, scene->memory, &scene->environment)
+               ? GLINT_OK
+               : gi_error_memory(error);
+}
+
 GlintStatus gi_world_commit(GiWorld *world, GiScene *scene, const GiKernel *kernel, GiPool *pool,
     const GlintMonitor *monitor, GlintError *error) {
     memset(world, 0, sizeof *world);
@@ -152,6 +180,8 @@ GlintStatus gi_world_commit(GiWorld *world, GiScene *scene, const GiKernel *kern
         return status == GLINT_ERROR_MEMORY ? gi_error_memory(error)
                                             : gi_error_set(error, status, "cancelled");
     }
+    status = prepare_lights(world, scene, error);
+    if (status != GLINT_OK) return status;
     if (!report(monitor, 1)) return gi_error_set(error, GLINT_CANCELLED, "cancelled");
     gi_array_free(scene->memory, &world->refs);
     gi_array_free(scene->memory, &scene->roots);
@@ -170,4 +200,6 @@ void gi_world_reset(GiWorld *world, GiMemory *memory) {
     gi_array_free(memory, &world->refs);
     gi_array_free(memory, &world->placements);
     gi_array_free(memory, &world->transforms);
+    gi_array_free(memory, &world->rectangles);
+    if (world->sky_lights) gi_environment_sampler_reset(&world->sky, memory);
 }

@@ -5,6 +5,8 @@
 #include "accel/tree.h"
 #include "camera/camera.h"
 #include "kernel/kernel.h"
+#include "light/environment.h"
+#include "light/rectangle.h"
 #include "scene/scene.h"
 
 typedef struct GiWorld {
@@ -16,6 +18,10 @@ typedef struct GiWorld {
     GiTrace trace;
     GiView view;
     double eye_error; /* camera rays begin here, past a surface that the eye lies on */
+    GI_ARRAY(GiLightRectangle) rectangles; /* an entry for every light; those of rectangles count */
+    GiEnvironmentSampler sky;
+    bool sky_lights;       /* the environment lights surfaces */
+    bool has_large_lights; /* that can be found by chance: the sky or a visible rectangle */
     size_t primitive_count;
     GI_ARRAY(GiShapeRef) refs; /* groups spread out; empty again once the tree stands */
     GI_ARRAY(GiPlacement) placements;

@@ -116,6 +116,7 @@ static const GiRules rules[GLINT_DIALECT_COUNT] = {
     [GLINT_DIALECT_GLINT] =
         {
             .name = "glint",
+            .radiance_over_pi = true,
             .glazed_behind = true,
             .last_level = 12,
             .area_light_visible = true,

@@ -9,6 +9,7 @@ typedef struct GiRules {
     const char *name;
     bool falloff;               /* point lights fall off with the square of the distance */
     bool diffuse_over_pi;       /* the diffuse term is kd / pi, not kd */
+    bool radiance_over_pi;      /* ... but where light is given as radiance, it is kd / pi */
     bool phong_cosine;          /* the highlight is multiplied by n.l */
     bool highlight_needs_light; /* no highlight where n.l <= 0 */
     bool black_from_behind;     /* reflected light is black where n.v < 0 */

@@ -100,6 +100,20 @@ const char *gi_scene_check_cone(double center_z, double tip_z) {
     return tip_z == center_z ? "the apex of the cone lies in its centre plane" : NULL;
 }
 
+const char *gi_scene_check_light(const GiLight *light) {
+    GiVec side = gi_cross(gi_normalize(light->up), gi_normalize(light->direction));
+    return gi_length(side) < 1e-12 ? "the up direction is parallel to the normal" : NULL;
+}
+
+const char *gi_scene_check_substrate(const GiScene *scene, uint32_t substrate) {
+    int depth = 1;
+    for (; scene->shaders.data[substrate].type == GLINT_SHADER_GLAZED; depth++) {
+        if (depth >= GI_SUBSTRATE_LIMIT) return "Glazed shaders lie more than 8 deep on each other";
+        substrate = scene->shaders.data[substrate].substrate;
+    }
+    return NULL;
+}
+
 double gi_scene_cone_tip(double center_z, double radius, double theta_degrees) {
     double sine, cosine;
     gi_sincos_degrees(theta_degrees / 2, &sine, &cosine);
@@ -158,6 +172,17 @@ bool gi_scene_add_plane(
     GiScene *scene, GiVec point, GiVec normal, uint32_t shader, GiShapeRef *ref) {
     ADD_SHAPE(
         scene, &scene->planes, GI_SHAPE_PLANE, shader, ref, (GiPlane){point, gi_normalize(normal)});
+}
+
+bool gi_scene_add_mesh_surface(GiScene *scene, uint32_t mesh, uint32_t shader, GiShapeRef *ref) {
+    if (scene->mesh_surfaces.count >= GI_SHAPE_INDEX_LIMIT ||
+        !gi_array_reserve(scene->memory, &scene->mesh_surfaces, 1)) {
+        return false;
+    }
+    size_t index = scene->mesh_surfaces.count++;
+    scene->mesh_surfaces.data[index] = (GiMeshSurface){mesh, {shader, scene->shape_count++}};
+    *ref = gi_shape_ref(GI_SHAPE_MESH, (uint32_t)index);
+    return true;
 }
 
 /* ---------------------------------------------------------------- groups */

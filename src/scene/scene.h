@@ -123,6 +123,10 @@ GiLight gi_light_default(void);
 const char *gi_scene_check_image_size(double width, double height);
 const char *gi_scene_check_camera(const GiCamera *camera);
 const char *gi_scene_check_cone(double center_z, double tip_z);
+/* A rectangle light's directions; they have a length. */
+const char *gi_scene_check_light(const GiLight *light);
+/* Whether a shader can be glazed. */
+const char *gi_scene_check_substrate(const GiScene *scene, uint32_t substrate);
 
 /* The apex of a cone given by its full opening angle (0 < theta < 180). */
 double gi_scene_cone_tip(double center_z, double radius, double theta_degrees);
@@ -140,6 +144,7 @@ bool gi_scene_add_disc(
     GiScene *scene, GiVec center, GiVec normal, double radius, uint32_t shader, GiShapeRef *ref);
 bool gi_scene_add_plane(
     GiScene *scene, GiVec point, GiVec normal, uint32_t shader, GiShapeRef *ref);
+bool gi_scene_add_mesh_surface(GiScene *scene, uint32_t mesh, uint32_t shader, GiShapeRef *ref);
 bool gi_scene_add_group(GiScene *scene, GiShapeRef *ref);
 
 /* Appends a step to a group's transform (value; or matrix for GI_STEP_MATRIX). */

@@ -18,15 +18,22 @@ typedef struct GiShading {
 
 /* ---- the local part: all but mirrors and refraction */
 
-/* f(l, v) n.l: light of strength E from the unit direction l adds E times this. Glazed and Glass
- * have none of their own. */
+/* f(l, v) n.l: light of strength E from the unit direction l adds E times this. It is finite, also
+ * where l or v grazes the surface. Glazed, Glass and RGBNormals have none of their own. */
 GiVec gi_bsdf_evaluate(const GiShading *at, GiVec l);
+
+/* What gi_bsdf_evaluate is to be multiplied by for light that comes as radiance from all around, as
+ * in path tracing: 1, or 1/pi where a year writes kd for what radiometry calls kd/pi. Then, and
+ * only then, no surface with sensible colours sends back more than it gets (docs/accuracy.md names
+ * those that do). */
+double gi_bsdf_radiometric(const GiShading *at);
 
 /* Draws a direction from three numbers in [0, 1) and returns the density per solid angle with which
  * it does, 0 when it draws none. The light that comes from there counts evaluate / density. */
 double gi_bsdf_sample(const GiShading *at, const double u[3], GiVec *l);
 
-/* The density with which gi_bsdf_sample draws l. */
+/* The density with which gi_bsdf_sample draws l, the same to the last bit. Its integral over the
+ * sphere is one less the part of draws that give none. */
 double gi_bsdf_density(const GiShading *at, GiVec l);
 
 /* ---- branches */
@@ -35,15 +42,17 @@ enum { GI_BRANCH_LIMIT = GI_SUBSTRATE_LIMIT + 3 };
 
 /* A ray that goes on from the surface: what it brings counts `factor`. */
 typedef struct GiBranch {
-    GiVec direction; /* unit */
-    GiVec factor;
+    GiVec direction; /* unit, but for rounding */
+    GiVec factor;    /* not zero */
     double weight; /* of the whole path so far, with this branch; rules->least_weight is about it */
     bool inside;   /* the new ray runs in glass (rules->glass_by_flag) */
 } GiBranch;
 
 typedef struct GiScatter {
     GiShading local;    /* what is under all glazing, ready for gi_bsdf_...; its shader is null
-                           when nothing is left for light sources to be reflected by */
+                           when nothing is left for light sources to be reflected by. Under
+                           glazing `diffuse` is the substrate's own colour: the caller, who knows
+                           where on the surface this is, looks up a texture of local.shader. */
     GiVec local_factor; /* of its reflected light */
     int count;
     GiBranch branch[GI_BRANCH_LIMIT];
@@ -57,6 +66,7 @@ typedef struct GiArrival {
     bool inside;
 } GiArrival;
 
-/* Takes glazing, glass and mirror coefficients apart. Branches below rules->least_weight are not
- * listed; the caller drops those that would be deeper than rules->last_level. */
+/* Takes glazing, glass and mirror coefficients apart. Branches that add nothing or weigh less than
+ * rules->least_weight are not listed; the caller drops those that would be deeper than
+ * rules->last_level. */
 void gi_bsdf_scatter(const GiShading *at, const GiArrival *arrival, GiScatter *scatter);

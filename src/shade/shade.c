@@ -7,12 +7,12 @@ GiVec gi_shade_emit(const GiShader *shader, GiVec normal) {
     return shader->type == GLINT_SHADER_RGB_NORMALS ? normal_color(normal) : gi_vec(0, 0, 0);
 }
 
-GiVec gi_shade_ambient(const GiShader *shader, const GiLight *light, GiVec normal) {
-    if (shader->type == GLINT_SHADER_RGB_NORMALS) return gi_vec(0, 0, 0);
+GiVec gi_shade_ambient(const GiShading *at, const GiLight *light) {
+    if (at->shader->type == GLINT_SHADER_RGB_NORMALS) return gi_vec(0, 0, 0);
     switch (light->type) {
-    case GLINT_LIGHT_AMBIENT: return gi_multiply(light->intensity, shader->diffuse);
-    case GLINT_LIGHT_CONSTANT: return shader->diffuse;
-    case GLINT_LIGHT_NORMAL: return normal_color(normal);
+    case GLINT_LIGHT_AMBIENT: return gi_multiply(light->intensity, at->diffuse);
+    case GLINT_LIGHT_CONSTANT: return at->diffuse;
+    case GLINT_LIGHT_NORMAL: return normal_color(at->normal);
     default: break;
     }
     return gi_vec(0, 0, 0);

@@ -4,13 +4,13 @@
 #pragma once
 
 #include "math/elementary.h"
-#include "scene/scene.h"
+#include "shade/bsdf.h"
 
 /* What is there without any light. */
 GiVec gi_shade_emit(const GiShader *shader, GiVec normal);
 
 /* What lights without a place add: ambient, constant and normal lights. */
-GiVec gi_shade_ambient(const GiShader *shader, const GiLight *light, GiVec normal);
+GiVec gi_shade_ambient(const GiShading *at, const GiLight *light);
 
 static inline double gi_shade_positive(double x) { return x > 0 ? x : 0; }
 
@@ -36,23 +36,15 @@ static inline GiVec gi_shade_phong(
     return gi_add(diffuse, specular);
 }
 
-/* The part of light that comes from direction l (unit) and leaves toward v (unit), times the cosine
- * n.l: a light of strength E adds E times this. */
-static inline GiVec gi_shade_reflect(
-    const GiShader *shader, const GiRules *rules, GiVec n, GiVec v, GiVec l) {
-    if (rules->black_from_behind && gi_dot(n, v) < 0) return gi_vec(0, 0, 0);
-    switch (shader->type) {
-    case GLINT_SHADER_LAMBERTIAN: return gi_shade_lambertian(shader, rules, gi_dot(n, l));
-    case GLINT_SHADER_PHONG: return gi_shade_phong(shader, rules, n, v, l);
-    default: break;
-    }
-    return gi_vec(0, 0, 0);
+/* Whether a light falls off with the square of the distance. */
+static inline bool gi_shade_light_falls(const GiLight *light, const GiRules *rules) {
+    return light->falloff == GLINT_FALLOFF_INVERSE_SQUARE ||
+           (light->falloff == GLINT_FALLOFF_DIALECT && rules->falloff);
 }
 
 /* E of a point light at the given squared distance. */
 static inline GiVec gi_shade_light(
     const GiLight *light, const GiRules *rules, double distance_square) {
-    bool falls = light->falloff == GLINT_FALLOFF_INVERSE_SQUARE ||
-                 (light->falloff == GLINT_FALLOFF_DIALECT && rules->falloff);
-    return falls ? gi_scale(light->intensity, 1 / distance_square) : light->intensity;
+    return gi_shade_light_falls(light, rules) ? gi_scale(light->intensity, 1 / distance_square)
+                                              : light->intensity;
 }

@@ -64,7 +64,8 @@ static GiBox transform_sphere(const GiAffine *a, const GiSphere *sphere) {
     return (GiBox){gi_sub(center, reach), gi_add(center, reach)};
 }
 
-GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref) {
+GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref, uint32_t instance) {
+    (void)instance;
     if (gi_shape_kind(ref) != GI_SHAPE_PLACED) return unplaced_bounds(shapes, ref);
     const GiPlacement *placement = &shapes->placements[gi_shape_index(ref)];
     const GiAffine *to_world = &shapes->transforms[placement->transform].to_world;
@@ -80,6 +81,11 @@ GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref) {
 
 /* ---------------------------------------------------------------- point and normal */
 
+/* The normal to shade with is that of the surface. */
+static GiSurfacePoint facing(GiVec point, GiVec normal, double error) {
+    return (GiSurfacePoint){point, normal, normal, error};
+}
+
 /* The face is the one whose plane the ray crosses at t: the same operations as in the test give
  * the same t to the bit. */
 static GiSurfacePoint box_point(const GiBox *box, const gi_hit_Ray *ray, GiVec p, double t) {
@@ -93,16 +99,16 @@ static GiSurfacePoint box_point(const GiBox *box, const gi_hit_Ray *ray, GiVec p
     if (side < 0 ? x0 == t : x1 == t) {
         bool high = toward.x > 0;
         p.x = high ? box->high.x : box->low.x;
-        return (GiSurfacePoint){p, {high ? 1 : -1, 0, 0}, 0};
+        return facing(p, gi_vec(high ? 1 : -1, 0, 0), 0);
     }
     if (side < 0 ? y0 == t : y1 == t) {
         bool high = toward.y > 0;
         p.y = high ? box->high.y : box->low.y;
-        return (GiSurfacePoint){p, {0, high ? 1 : -1, 0}, 0};
+        return facing(p, gi_vec(0, high ? 1 : -1, 0), 0);
     }
     bool high = toward.z > 0;
     p.z = high ? box->high.z : box->low.z;
-    return (GiSurfacePoint){p, {0, 0, high ? 1 : -1}, 0};
+    return facing(p, gi_vec(0, 0, high ? 1 : -1), 0);
 }
 
 static GiSurfacePoint cone_point(
@@ -113,7 +119,7 @@ static GiSurfacePoint cone_point(
     if (enter + wall.shift == t || leave + wall.shift == t) {
         bool top = (enter + wall.shift == t) == (ray->iz < 0);
         p.z = cone->center.z + (top ? half : -half);
-        return (GiSurfacePoint){p, {0, 0, top ? 1 : -1}, size};
+        return facing(p, gi_vec(0, 0, top ? 1 : -1), size);
     }
     double x = p.x - cone->center.x, y = p.y - cone->center.y, z = p.z - cone->center.z;
     double distance = sqrt(x * x + y * y);
@@ -121,15 +127,17 @@ static GiSurfacePoint cone_point(
     double tilt = -cone->slope;                     /* R / H */
     if (second_nappe_geometric && radius < 0) tilt = -tilt;
     /* At the apex itself any direction of the wall's normal cone is as good; take the axis. */
-    if (distance == 0) return (GiSurfacePoint){p, {0, 0, tilt > 0 ? 1 : -1}, size};
+    if (distance == 0) return facing(p, gi_vec(0, 0, tilt > 0 ? 1 : -1), size);
     p.x = cone->center.x + x * (fabs(radius) / distance);
     p.y = cone->center.y + y * (fabs(radius) / distance);
-    return (GiSurfacePoint){p, gi_normalize(gi_vec(x / distance, y / distance, tilt)), size};
+    GiSurfacePoint at = facing(p, gi_normalize(gi_vec(x / distance, y / distance, tilt)), size);
+    if (radius < 0 && !second_nappe_geometric) at.geometric.z = -at.geometric.z;
+    return at;
 }
 
 static GiSurfacePoint flat_point(GiVec point, GiVec normal, GiVec p) {
-    return (GiSurfacePoint){gi_along(p, normal, gi_dot(gi_sub(point, p), normal)), normal,
-        gi_largest(gi_sub(p, point))};
+    return facing(gi_along(p, normal, gi_dot(gi_sub(point, p), normal)), normal,
+        gi_largest(gi_sub(p, point)));
 }
 
 /* error: the size of the numbers beside the point's own. */
@@ -161,8 +169,9 @@ static double offset_of(const GiAffine *a) {
     return fmax(fabs(a->m[0][3]), fmax(fabs(a->m[1][3]), fabs(a->m[2][3])));
 }
 
-GiSurfacePoint gi_shape_point_any(const GiShapes *shapes, GiShapeRef ref, GiVec origin,
-    GiVec direction, double t, bool second_nappe_geometric) {
+GiSurfacePoint gi_shape_point_any(const GiShapes *shapes, GiShapeRef ref, uint32_t instance,
+    GiVec origin, GiVec direction, double t, bool second_nappe_geometric) {
+    (void)instance;
     GiSurfacePoint at;
     if (gi_shape_kind(ref) != GI_SHAPE_PLACED) {
         at = unplaced_point(shapes, ref, origin, direction, t, second_nappe_geometric);
@@ -183,5 +192,15 @@ GiSurfacePoint gi_shape_point_any(const GiShapes *shapes, GiShapeRef ref, GiVec 
                    norm(&transform->to_object) * norm(&transform->to_world);
     at.error = (error + there) * GI_SURFACE_ERROR;
     at.normal = gi_normalize(gi_affine_transposed_vector(&transform->to_object, at.normal));
+    at.geometric = gi_normalize(gi_affine_transposed_vector(&transform->to_object, at.geometric));
     return at;
+}
+
+void gi_shape_texcoord(
+    const GiShapes *shapes, GiShapeRef ref, uint32_t instance, GiVec point, double uv[2]) {
+    (void)shapes;
+    (void)ref;
+    (void)instance;
+    (void)point;
+    uv[0] = uv[1] = 0;
 }

@@ -142,26 +142,36 @@ static inline GiShapeRef gi_shape_unplaced(const GiShapes *shapes, GiShapeRef re
                                                  : ref;
 }
 
-static inline const GiShapeInfo *gi_shape_info(const GiShapes *shapes, GiShapeRef ref) {
+/* From here on a surface is named by a ref and the index of the instance it stands in, or
+ * GI_SHAPE_NONE. */
+
+static inline const GiShapeInfo *gi_shape_info(
+    const GiShapes *shapes, GiShapeRef ref, uint32_t instance) {
+    (void)instance;
     ref = gi_shape_unplaced(shapes, ref);
     return &shapes->info[gi_shape_kind(ref)][gi_shape_index(ref)];
 }
 
 /* Whether a goes before b where a ray meets both at the same t. */
-static inline bool gi_shape_before(const GiShapes *shapes, GiShapeRef a, GiShapeRef b) {
-    uint32_t order_a = gi_shape_info(shapes, a)->order, order_b = gi_shape_info(shapes, b)->order;
-    return order_a != order_b ? order_a < order_b : a.bits < b.bits;
+static inline bool gi_shape_before(
+    const GiShapes *shapes, GiShapeRef a, uint32_t instance_a, GiShapeRef b, uint32_t instance_b) {
+    uint32_t order_a = gi_shape_info(shapes, a, instance_a)->order;
+    uint32_t order_b = gi_shape_info(shapes, b, instance_b)->order;
+    if (order_a != order_b) return order_a < order_b;
+    return instance_a != instance_b ? instance_a < instance_b : a.bits < b.bits;
 }
 
 /* The smallest box round a shape; infinite for a plane. */
-GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref);
+GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref, uint32_t instance);
 
 /* The point where a ray (origin, direction) met the shape at t, moved onto the surface to the last
- * bits, and the unit normal there, outward. A ray that starts at the point may find the same
- * surface again within the distance `error`, by rounding alone: the numbers the point and the test
- * are made of, times GI_SURFACE_ERROR. second_nappe_geometric: see GiRules.cone_geometric. */
+ * bits, the unit normal to shade with and the one of the surface itself; both outward. They differ
+ * on a smooth mesh, and on a cone's second nappe unless second_nappe_geometric (see
+ * GiRules.cone_geometric). A ray that starts at the point may find the same surface again within
+ * the distance `error`, by rounding alone: the numbers the point and the test are made of, times
+ * GI_SURFACE_ERROR. */
 typedef struct GiSurfacePoint {
-    GiVec point, normal;
+    GiVec point, normal, geometric;
     double error;
 } GiSurfacePoint;
 
@@ -169,7 +179,7 @@ typedef struct GiSurfacePoint {
 static inline GiSurfacePoint gi_sphere_point(const GiSphere *sphere, GiVec p) {
     GiVec normal = gi_normalize(gi_sub(p, sphere->center));
     return (GiSurfacePoint){
-        gi_along(sphere->center, normal, sphere->radius), normal, sphere->radius};
+        gi_along(sphere->center, normal, sphere->radius), normal, normal, sphere->radius};
 }
 
 /* 2048 roundings. A point on a surface and the test of a ray from it take about forty, and where
@@ -177,17 +187,23 @@ static inline GiSurfacePoint gi_sphere_point(const GiSphere *sphere, GiVec p) {
  * last degree, where the light that a wrong hit would take away is next to nothing. */
 #define GI_SURFACE_ERROR 0x1p-42
 
-GiSurfacePoint gi_shape_point_any(const GiShapes *shapes, GiShapeRef ref, GiVec origin,
-    GiVec direction, double t, bool second_nappe_geometric);
+GiSurfacePoint gi_shape_point_any(const GiShapes *shapes, GiShapeRef ref, uint32_t instance,
+    GiVec origin, GiVec direction, double t, bool second_nappe_geometric);
 
 /* The same, with the most frequent shape inline. */
-static inline GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref, GiVec origin,
-    GiVec direction, double t, bool second_nappe_geometric) {
-    if (gi_shape_kind(ref) != GI_SHAPE_SPHERE) {
-        return gi_shape_point_any(shapes, ref, origin, direction, t, second_nappe_geometric);
+static inline GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref,
+    uint32_t instance, GiVec origin, GiVec direction, double t, bool second_nappe_geometric) {
+    if (gi_shape_kind(ref) != GI_SHAPE_SPHERE || instance != GI_SHAPE_NONE) {
+        return gi_shape_point_any(
+            shapes, ref, instance, origin, direction, t, second_nappe_geometric);
     }
     GiSurfacePoint at =
         gi_sphere_point(&shapes->spheres[gi_shape_index(ref)], gi_along(origin, direction, t));
     at.error = (at.error + gi_largest(at.point)) * GI_SURFACE_ERROR;
     return at;
 }
+
+/* Texture coordinates of a point of the surface: of spheres and of meshes that have them, otherwise
+ * (0, 0). */
+void gi_shape_texcoord(
+    const GiShapes *shapes, GiShapeRef ref, uint32_t instance, GiVec point, double uv[2]);

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * Rays become points in the plane across their mean direction, with axes along the cloud's own;
- * each coordinate is replaced by its rank among 128, and the rays are walked along a Hilbert curve.
- * Ranks, not lengths: behind a silhouette one far pixel would otherwise push all others into a
- * few cells. One counting sort does the rest, so the whole costs a few nanoseconds a ray. */
-#include "render/regroup.h"
-
-#include <stdbool.h>
+ * The order of regroup.h. Rays become points in the plane across their mean direction, with axes
+ * along the cloud's own; each coordinate is replaced by its rank among 128, and the rays are walked
+ * along a Hilbert curve. Ranks, not lengths: behind a silhouette one far pixel would otherwise push
+ * all others into a few cells. One counting sort does the rest, so the whole costs a few
+ * nanoseconds a ray. Part of kernel.c, for the sake of its vectors. */
+#pragma once
 
 enum { BUCKETS = 512, RANKS = 128, CELLS = RANKS * RANKS, KEEP_ORDER = 16 };
 
@@ -20,10 +19,10 @@ static void store(float to[3], GiVec v) {
 }
 
 /* A frame across the mean direction; u and v are arbitrary. */
-static Axes axes_of(const GiRegroup *regroup, int count) {
+static Axes axes_of(const float *x, const float *y, const float *z, int count) {
     GiVec sum = {0, 0, 0};
     for (int i = 0; i < count; i += 1 + count / 64) {
-        sum = gi_add(sum, gi_normalize(gi_vec(regroup->x[i], regroup->y[i], regroup->z[i])));
+        sum = gi_add(sum, gi_normalize(gi_vec(x[i], y[i], z[i])));
     }
     GiVec w = gi_normalize(sum);
     if (gi_vec_is_zero(w)) w = gi_vec(0, 0, 1);
@@ -35,10 +34,11 @@ static Axes axes_of(const GiRegroup *regroup, int count) {
     return axes;
 }
 
-static void project(GiRegroup *regroup, int count) {
-    const Axes axes = axes_of(regroup, count);
+static void project(
+    GiRegroup *regroup, const float *xs, const float *ys, const float *zs, int count) {
+    const Axes axes = axes_of(xs, ys, zs, count);
     for (int i = 0; i < count; i++) {
-        float x = regroup->x[i], y = regroup->y[i], z = regroup->z[i];
+        float x = xs[i], y = ys[i], z = zs[i];
         float depth = axes.w[0] * x + axes.w[1] * y + axes.w[2] * z;
         float least = 1e-3f * (fabsf(x) + fabsf(y) + fabsf(z)); /* rays across or backward */
         float divisor = depth > least ? depth : least;
@@ -94,7 +94,7 @@ static uint16_t hilbert_place(unsigned x, unsigned y) {
     return (uint16_t)place;
 }
 
-void gi_regroup_init(GiRegroup *regroup) {
+static void GI_KERNEL(regroup_init)(GiRegroup *regroup) {
     for (unsigned x = 0; x < RANKS; x++) {
         for (unsigned y = 0; y < RANKS; y++) regroup->curve[x * RANKS + y] = hilbert_place(x, y);
     }
@@ -149,12 +149,13 @@ static void sort_by_key(GiRegroup *regroup, int count) {
     }
 }
 
-void gi_regroup(GiRegroup *regroup, int count) {
+static void GI_KERNEL(regroup)(
+    GiRegroup *regroup, const float *x, const float *y, const float *z, int count) {
     if (count <= KEEP_ORDER) {
         for (int i = 0; i < count; i++) regroup->order[i] = (uint16_t)i;
         return;
     }
-    project(regroup, count);
+    project(regroup, x, y, z, count);
     align(regroup, count);
     for (int i = 0; i < count; i++) regroup->key[i] = 0;
     rank(regroup, regroup->a, count, RANKS);

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT
+ * Points of surfaces in numbers, and what a point light does to those of one shader. Component by
+ * component, so that the kernels take as many at a time as their vectors hold. */
+#pragma once
+
+#include "math/vec.h"
+
+#include <stdint.h>
+
+enum {
+    GI_POINT_LIMIT = 16384,
+    GI_POINT_ROOM = GI_POINT_LIMIT + 16 /* kernels read and write whole vectors */
+};
+
+typedef struct GiPoints {
+    double px[GI_POINT_ROOM], py[GI_POINT_ROOM], pz[GI_POINT_ROOM];
+    double nx[GI_POINT_ROOM], ny[GI_POINT_ROOM], nz[GI_POINT_ROOM]; /* unit normal */
+    double vx[GI_POINT_ROOM], vy[GI_POINT_ROOM], vz[GI_POINT_ROOM]; /* unit, toward the viewer */
+    double error[GI_POINT_ROOM]; /* distance within which a ray may meet its own surface */
+} GiPoints;
+
+typedef struct GiPointLight {
+    GiVec position, intensity;
+    bool falls; /* off with the square of the distance */
+} GiPointLight;
+
+/* A Lambertian or Blinn-Phong shader under a dialect's rules (shade/shade.h has the formulas). */
+typedef struct GiGloss {
+    GiVec diffuse, specular;
+    double diffuse_factor; /* 1 or 1 / pi */
+    bool phong;
+    unsigned exponent;
+    bool cosine;      /* the highlight is multiplied by n.l */
+    bool needs_light; /* no highlight where n.l <= 0 */
+    bool front_only;  /* black where n.v < 0 */
+    double away;      /* distance from the point at which shadow rays begin; 0: at its error */
+} GiGloss;
+
+/* Shadow rays to one light, and what they let through. */
+typedef struct GiLit {
+    int count;
+    uint32_t point[GI_POINT_ROOM]; /* index into the points */
+    double red[GI_POINT_ROOM], green[GI_POINT_ROOM], blue[GI_POINT_ROOM];
+    double t_min[GI_POINT_ROOM];                                /* the light is at t = 1 */
+    float x[GI_POINT_ROOM], y[GI_POINT_ROOM], z[GI_POINT_ROOM]; /* unit direction */
+} GiLit;

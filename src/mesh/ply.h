@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: MIT
+ * What the header of a PLY file says: elements in the order of the file, each with its number of
+ * rows and the properties that a row has. */
+#pragma once
+
+#include "mesh/input.h"
+
+typedef enum GiPlyEncoding { GI_PLY_ASCII, GI_PLY_LITTLE_ENDIAN, GI_PLY_BIG_ENDIAN } GiPlyEncoding;
+
+typedef enum GiPlyType {
+    GI_PLY_INT8,
+    GI_PLY_UINT8,
+    GI_PLY_INT16,
+    GI_PLY_UINT16,
+    GI_PLY_INT32,
+    GI_PLY_UINT32,
+    GI_PLY_FLOAT,
+    GI_PLY_DOUBLE,
+    GI_PLY_NO_TYPE
+} GiPlyType;
+
+/* What a property is to the mesh. The first eight are numbers of a vertex. */
+typedef enum GiPlyRole {
+    GI_PLY_X,
+    GI_PLY_Y,
+    GI_PLY_Z,
+    GI_PLY_NX,
+    GI_PLY_NY,
+    GI_PLY_NZ,
+    GI_PLY_U,
+    GI_PLY_V,
+    GI_PLY_INDICES, /* the list of a face's corners */
+    GI_PLY_SKIPPED
+} GiPlyRole;
+
+typedef struct GiPlyProperty {
+    GiPlyType count_type; /* of a list; otherwise GI_PLY_NO_TYPE */
+    GiPlyType type;
+    GiPlyRole role;
+} GiPlyProperty;
+
+typedef enum GiPlyKind {
+    GI_PLY_VERTEX,
+    GI_PLY_FACE,
+    GI_PLY_OTHER,
+    GI_PLY_KIND_COUNT = GI_PLY_OTHER
+} GiPlyKind;
+
+typedef struct GiPlyElement {
+    GiPlyKind kind;
+    size_t row_count;
+    size_t first_property, property_count;
+    unsigned roles; /* bits of those that it has */
+} GiPlyElement;
+
+typedef struct GiPlyHeader {
+    GiPlyEncoding encoding;
+    GI_ARRAY(GiPlyElement) elements;
+    GI_ARRAY(GiPlyProperty) properties;
+    const GiPlyElement *known[GI_PLY_KIND_COUNT]; /* the vertices, the faces */
+    const char *body;                             /* what follows the header */
+} GiPlyHeader;
+
+/* Bytes of a value of that type. */
+size_t gi_ply_type_size(GiPlyType type);
+
+/* Reads the header and checks that it describes a mesh. gi_ply_header_reset must follow, also after
+ * a failure. */
+GlintStatus gi_ply_header_read(GiMeshInput *input, GiPlyHeader *header);
+void gi_ply_header_reset(GiPlyHeader *header, GiMemory *memory);

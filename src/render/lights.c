@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: MIT */
+#include "render/stage.h"
+#include "shade/shade.h"
+
+/* ---------------------------------------------------------------- point lights */
+
+bool gi_lights_gloss(const GiRules *rules, const GiShader *shader, GiGloss *gloss) {
+    bool phong = shader->type == GLINT_SHADER_PHONG;
+    if (!phong && shader->type != GLINT_SHADER_LAMBERTIAN) return false;
+    if (shader->texture != GI_NONE) return false;
+    unsigned exponent = 0;
+    if (phong) {
+        if (!(shader->exponent >= 0 && shader->exponent <= 1024)) return false;
+        exponent = (unsigned)shader->exponent;
+        if (exponent != shader->exponent) return false;
+    }
+    *gloss = (GiGloss){
+        .diffuse = shader->diffuse,
+        .specular = shader->specular,
+        .diffuse_factor = gi_shade_diffuse_factor(rules),
+        .phong = phong,
+        .exponent = exponent,
+        .cosine = rules->phong_cosine,
+        .needs_light = rules->highlight_needs_light,
+        .front_only = rules->black_from_behind,
+        .away = rules->shadow_distance,
+    };
+    return true;
+}
+
+static GiVec point_at(const GiPoints *points, int i) {
+    return gi_vec(points->px[i], points->py[i], points->pz[i]);
+}
+
+/* The same as the kernels' light, for any shader. */
+static void light_segment(const GiStage *stage, const GiLight *light, const GiSegment *segment) {
+    GiTileScratch *scratch = stage->scratch;
+    const GiRules *rules = stage->world->rules;
+    const GiPoints *points = &scratch->points;
+    GiLit *lit = &scratch->lit;
+    for (int i = segment->begin; i < segment->end; i++) {
+        GiVec d = gi_sub(light->position, point_at(points, i));
+        double square = gi_dot(d, d);
+        if (!(square > 0)) continue; /* the light is on the surface */
+        double inverse = 1 / sqrt(square);
+        GiVec l = gi_scale(d, inverse);
+        GiShading at = gi_surface_shading(stage, i);
+        GiVec adds = gi_multiply(gi_shade_light(light, rules, square), gi_bsdf_evaluate(&at, l));
+        if (gi_vec_is_zero(adds)) continue;
+        double away = rules->shadow_distance > 0 ? rules->shadow_distance : points->error[i];
+        int k = lit->count++;
+        lit->point[k] = (uint32_t)i;
+        lit->red[k] = adds.x, lit->green[k] = adds.y, lit->blue[k] = adds.z;
+        lit->t_min[k] = away * inverse;
+        lit->x[k] = (float)l.x, lit->y[k] = (float)l.y, lit->z[k] = (float)l.z;
+    }
+}
+
+/* Traces the shadow rays, in an order of the kernels' liking. */
+static void trace_lit(const GiStage *stage, GiVec light) {
+    GiTileScratch *scratch = stage->scratch;
+    GiBundle *bundle = &scratch->bundle;
+    const GiPoints *points = &scratch->points;
+    const GiLit *lit = &scratch->lit;
+    stage->world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count);
+    for (int begin = 0; begin < lit->count; begin += GI_BUNDLE_SIZE) {
+        if (gi_stage_stopped(stage)) return;
+        const uint16_t *order = scratch->regroup.order + begin;
+        bundle->count = lit->count - begin < GI_BUNDLE_SIZE ? lit->count - begin : GI_BUNDLE_SIZE;
+        bundle->apex = light;
+        bundle->side = gi_vec(0, 0, 0);
+        for (int i = 0; i < bundle->count; i++) {
+            uint32_t point = lit->point[order[i]];
+            double x = points->px[point], y = points->py[point], z = points->pz[point];
+            bundle->ox[i] = x;
+            bundle->oy[i] = y;
+            bundle->oz[i] = z;
+            bundle->dx[i] = light.x - x;
+            bundle->dy[i] = light.y - y;
+            bundle->dz[i] = light.z - z;
+            bundle->t_min[i] = lit->t_min[order[i]];
+            bundle->t_max[i] = 1;
+            bundle->skip[i] = scratch->spots[point].skip;
+            bundle->skip_instance[i] = scratch->spots[point].skip_instance;
+        }
+        stage->world->kernel->bundle_any(&stage->world->trace, bundle);
+        for (int i = 0; i < bundle->count; i++) {
+            scratch->arrives[order[i]] = bundle->shape[i] == GI_SHAPE_NONE;
+        }
+    }
+}
+
+static void add_lit(const GiStage *stage) {
+    GiTileScratch *scratch = stage->scratch;
+    const GiLit *lit = &scratch->lit;
+    for (int k = 0; k < lit->count; k++) {
+        if (!scratch->arrives[k]) continue;
+        uint32_t point = lit->point[k];
+        GiVec adds = {lit->red[k], lit->green[k], lit->blue[k]};
+        if (scratch->weighted) adds = gi_multiply(scratch->factors[point], adds);
+        GiVec *color = &scratch->color[scratch->spots[point].pixel];
+        *color = gi_add(*color, adds);
+    }
+}
+
+static void add_point_light(const GiStage *stage, const GiLight *light) {
+    GiTileScratch *scratch = stage->scratch;
+    const GiWorld *world = stage->world;
+    const GiPointLight point = {
+        light->position, light->intensity, gi_shade_light_falls(light, world->rules)};
+    scratch->lit.count = 0;
+    for (int i = 0; i < scratch->segment_count; i++) {
+        const GiSegment *segment = &scratch->segments[i];
+        GiGloss gloss;
+        if (gi_lights_gloss(world->rules, &world->scene->shaders.data[segment->shader], &gloss)) {
+            world->kernel->light(
+                &scratch->points, segment->begin, segment->end, &point, &gloss, &scratch->lit);
+        } else {
+            light_segment(stage, light, segment);
+        }
+    }
+    if (scratch->lit.count == 0) return;
+    trace_lit(stage, light->position);
+    stage->counts->shadow_rays += (uint64_t)scratch->lit.count;
+    if (!gi_stage_stopped(stage)) add_lit(stage);
+}
+
+/* ---------------------------------------------------------------- all other lights */
+
+/* What a light that is not a point sends to a surface: one ray. */
+typedef struct Beam {
+    GiVec direction;     /* toward the light, unit */
+    GiVec light;         /* E of the direction, or radiance over density */
+    double t_min, t_max; /* of the shadow ray */
+    double density;      /* per solid angle; 0: the bsdf cannot find this light */
+    bool radiance;       /* light of a large source, not of a point */
+} Beam;
+
+/* Where shadow rays begin: a distance. */
+static double away_of(const GiStage *stage, int i) {
+    double distance = stage->world->rules->shadow_distance;
+    return distance > 0 ? distance : stage->scratch->points.error[i];
+}
+
+static void add_point(const GiStage *stage, int i, GiVec light) {
+    GiTileScratch *scratch = stage->scratch;
+    if (scratch->weighted) light = gi_multiply(scratch->factors[i], light);
+    GiVec *color = &scratch->color[scratch->spots[i].pixel];
+    *color = gi_add(*color, light);
+}
+
+static bool is_blocked(const GiStage *stage, int i, const Beam *beam) {
+    const GiWorld *world = stage->world;
+    const GiSpot *spot = &stage->scratch->spots[i];
+    stage->counts->shadow_rays++;
+    const GiTraceRay ray = {point_at(&stage->scratch->points, i), beam->direction, beam->t_min,
+        beam->t_max, spot->skip, spot->skip_instance};
+    return world->kernel->any(&world->trace, &ray);
+}
+
+static void add_beam(const GiStage *stage, int i, const Beam *beam) {
+    GiShading at = gi_surface_shading(stage, i);
+    GiVec value = gi_bsdf_evaluate(&at, beam->direction);
+    double factor = beam->radiance ? gi_stage_radiance(&at) : 1;
+    if (beam->density > 0 && gi_surface_probes(stage->world, at.shader)) {
+        factor *= gi_stage_share(beam->density, gi_bsdf_density(&at, beam->direction));
+    }
+    GiVec light = gi_scale(gi_multiply(beam->light, value), factor);
+    if (gi_vec_is_zero(light) || is_blocked(stage, i, beam)) return;
+    add_point(stage, i, light);
+}
+
+/* The random numbers for a large light at a point. */
+static void draw_pair(const GiStage *stage, int i, uint32_t purpose, double u[2]) {
+    const GiSpot *spot = &stage->scratch->spots[i];
+    GiSampler sampler = gi_stage_sampler(stage, spot->pixel);
+    gi_sample_2d(&sampler, gi_stage_dimension(spot->level, purpose), u);
+}
+
+static bool directional_beam(const GiStage *stage, const GiLight *light, int i, Beam *beam) {
+    *beam = (Beam){.direction = gi_normalize(light->direction),
+        .light = light->intensity,
+        .t_min = away_of(stage, i),
+        .t_max = INFINITY};
+    return true;
+}
+
+/* One point of the rectangle, drawn anew for every point of a surface. */
+static bool rectangle_beam(const GiStage *stage, size_t index, int i, Beam *beam) {
+    const GiWorld *world = stage->world;
+    const GiLightRectangle *rectangle = &world->rectangles.data[index];
+    GiVec from = point_at(&stage->scratch->points, i), to;
+    double u[2];
+    draw_pair(stage, i, GI_PURPOSE_LIGHT + (uint32_t)index, u);
+    double factor = gi_rectangle_sample(rectangle, from, u, &to);
+    if (!(factor > 0)) return false;
+    GiVec offset = gi_sub(to, from);
+    double distance = gi_length(offset);
+    *beam = (Beam){.direction = gi_scale(offset, 1 / distance),
+        .light = gi_scale(world->scene->lights.data[index].intensity, factor),
+        .t_min = away_of(stage, i),
+        /* Not as far as the rectangle itself, which may be a surface. */
+        .t_max = distance - (gi_largest(to) + distance) * GI_SURFACE_ERROR,
+        .density = world->rules->area_light_visible ? 1 / factor : 0,
+        .radiance = true};
+    return true;
+}
+
+static bool sky_beam(const GiStage *stage, int i, Beam *beam) {
+    double u[2];
+    GiVec direction, radiance;
+    draw_pair(stage, i, GI_PURPOSE_SKY, u);
+    double density = gi_environment_sample(&stage->world->sky, u, &direction, &radiance);
+    if (!(density > 0)) return false;
+    *beam = (Beam){.direction = direction,
+        .light = gi_scale(radiance, 1 / density),
+        .t_min = away_of(stage, i),
+        .t_max = INFINITY,
+        .density = density,
+        .radiance = true};
+    return true;
+}
+
+static void add_ambient(const GiStage *stage, const GiLight *light) {
+    for (int i = 0; i < stage->scratch->point_count; i++) {
+        GiShading at = gi_surface_shading(stage, i);
+        add_point(stage, i, gi_shade_ambient(&at, light));
+    }
+}
+
+static void add_beams(const GiStage *stage, size_t index) {
+    const GiLight *light = &stage->world->scene->lights.data[index];
+    bool directional = light->type == GLINT_LIGHT_DIRECTIONAL;
+    for (int i = 0; i < stage->scratch->point_count; i++) {
+        if (i % 16 == 0 && gi_stage_stopped(stage)) return;
+        Beam beam;
+        bool any = directional ? directional_beam(stage, light, i, &beam)
+                               : rectangle_beam(stage, index, i, &beam);
+        if (any) add_beam(stage, i, &beam);
+    }
+}
+
+static void add_sky(const GiStage *stage) {
+    for (int i = 0; i < stage->scratch->point_count; i++) {
+        if (i % 16 == 0 && gi_stage_stopped(stage)) return;
+        Beam beam;
+        if (sky_beam(stage, i, &beam)) add_beam(stage, i, &beam);
+    }
+}
+
+static void add_light(const GiStage *stage, size_t index) {
+    const GiScene *scene = stage->world->scene;
+    const GiLight *light = &scene->lights.data[index];
+    switch (light->type) {
+    case GLINT_LIGHT_POINT: add_point_light(stage, light); break;
+    case GLINT_LIGHT_RECTANGLE:
+        if (scene->integrator != GLINT_INTEGRATOR_POINT_LIGHT) add_beams(stage, index);
+        break;
+    case GLINT_LIGHT_DIRECTIONAL: add_beams(stage, index); break;
+    case GLINT_LIGHT_AMBIENT:
+    case GLINT_LIGHT_CONSTANT:
+    case GLINT_LIGHT_NORMAL: add_ambient(stage, light); break;
+    }
+}
+
+void gi_lights_add(const GiStage *stage) {
+    const GiScene *scene = stage->world->scene;
+    for (size_t i = 0; i < scene->lights.count && !gi_stage_stopped(stage); i++) {
+        if (gi_stage_draws(stage, (int)i)) add_light(stage, i);
+    }
+    if (stage->world->sky_lights && gi_stage_draws(stage, -1)) add_sky(stage);
+    stage->scratch->point_count = stage->scratch->segment_count = 0;
+}

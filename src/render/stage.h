@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: MIT
+ * What the stages of a tile hand to each other. A stage works on many rays or points before the
+ * next begins, so that rays meet the kernels in numbers:
+ *
+ *     tile.c      camera rays, in bundles
+ *     surface.c   rays that met something become points; what shines by itself; mirror rays
+ *     lights.c    points and lights become shadow rays; those that arrive add light
+ *     flight.c    mirror rays and all that follow from them
+ *
+ * Light is summed up for each pixel in an order that depends on that pixel's own rays alone, never
+ * on how the picture was cut into tiles. */
+#pragma once
+
+#include "render/tile.h"
+#include "sample/sampler.h"
+#include "shade/bsdf.h"
+
+enum {
+    GI_TILE_STRIDE = GI_TILE_SIDE_LIMIT,
+    GI_TILE_PIXELS = GI_TILE_STRIDE * GI_TILE_STRIDE,
+    GI_FLIGHT_CHUNK = 4096 /* rays that are followed together */
+};
+
+/* What a point is beside its numbers. */
+typedef struct GiSpot {
+    uint32_t pixel, shader;
+    uint32_t skip, skip_instance; /* what shadow rays from here do not meet, or GI_SHAPE_NONE */
+    uint32_t level;               /* of the ray that met it */
+} GiSpot;
+
+/* What the camera rays of a pixel met, where it is asked for: sums over samples. */
+typedef struct GiSeen {
+    GiVec normal, albedo;
+    double depth;
+    int count;
+    uint32_t surface; /* of the first sample */
+} GiSeen;
+
+/* Points begin to end - 1 have one shader. */
+typedef struct GiSegment {
+    uint32_t shader;
+    int begin, end;
+} GiSegment;
+
+/* A ray under way: what it meets counts `factor`. */
+typedef struct GiFlight {
+    GiVec origin, direction; /* unit */
+    GiVec factor;
+    double t_min, weight;
+    double density;        /* with which a bsdf drew it; 0: it is a mirror's or refracted */
+    uint32_t pixel, level; /* rays of the camera: 1 */
+    bool inside;           /* in glass */
+    bool probe;            /* looks for lights only */
+} GiFlight;
+
+/* Rays first to end - 1 of the flights; they have one level. */
+typedef struct GiFlightRange {
+    size_t first, end;
+} GiFlightRange;
+
+struct GiTileScratch {
+    GiBundle bundle;
+    GiRegroup regroup;
+    GiPoints points;
+    GiSpot spots[GI_POINT_ROOM];
+    GiVec factors[GI_POINT_ROOM]; /* how much a point counts, unless all count 1 */
+    GiVec diffuse[GI_POINT_ROOM]; /* of points whose shader has a texture */
+    GiSegment segments[GI_POINT_LIMIT];
+    GiLit lit;
+    bool arrives[GI_POINT_LIMIT];                      /* of the lit */
+    double across[GI_TILE_STRIDE], up[GI_TILE_STRIDE]; /* window coordinates of columns, rows */
+    GiVec color[GI_TILE_PIXELS];                       /* of the sample being drawn */
+    GiVec sum[GI_TILE_PIXELS];                         /* of the samples before */
+    GiSeen *seen;                                      /* GI_TILE_PIXELS, or null */
+    GiFlight chunk[GI_FLIGHT_CHUNK];
+    GI_ARRAY(GiFlight) flights;
+    GI_ARRAY(GiFlightRange) ranges;
+    uint32_t *head; /* for each shader, while points are sorted: the first of its rays */
+    size_t shader_count;
+    int point_count, segment_count;
+    bool weighted; /* factors are in use */
+    bool out_of_memory;
+};
+
+/* What all stages need to know. */
+typedef struct GiStage {
+    const GiWorld *world;
+    const GiTileControl *control;
+    GiTileScratch *scratch;
+    GiRenderCounts *counts;
+    int light;             /* as in GlintRenderDesc */
+    uint32_t x, y, sample; /* the tile's corner in the whole picture; number of the sample */
+} GiStage;
+
+/* Whether to stop; asks the caller now and then. */
+bool gi_stage_stopped(const GiStage *stage);
+
+/* The numbers of a pixel's sample. A dimension is a purpose at a level. */
+static inline GiSampler gi_stage_sampler(const GiStage *stage, uint32_t pixel) {
+    return gi_sampler(
+        stage->x + pixel % GI_TILE_STRIDE, stage->y + pixel / GI_TILE_STRIDE, stage->sample);
+}
+
+typedef enum GiPurpose {
+    GI_PURPOSE_CHOICE,   /* of what goes on */
+    GI_PURPOSE_LOBE,     /* of a bsdf */
+    GI_PURPOSE_BSDF,     /* its direction */
+    GI_PURPOSE_ROULETTE, /* whether a path goes on */
+    GI_PURPOSE_SKY,
+    GI_PURPOSE_LIGHT /* the first of the lights; the others follow */
+} GiPurpose;
+
+static inline uint32_t gi_stage_dimension(uint32_t level, uint32_t purpose) {
+    return level << 16 | purpose;
+}
+
+/* The weight of one of two ways to draw the same light, by their densities (Veach and Guibas 1995,
+ * power heuristic). */
+static inline double gi_stage_share(double density, double other) {
+    double a = density * density, b = other * other;
+    return a > 0 ? a / (a + b) : 0;
+}
+
+/* Whether light of that index (-1: of no light) is drawn. */
+static inline bool gi_stage_draws(const GiStage *stage, int light) {
+    return stage->light == 0 || stage->light == (light < 0 ? -1 : light + 1);
+}
+
+/* What light given as radiance counts beside that of point lights, given as intensity. */
+static inline double gi_stage_radiance(const GiShading *at) {
+    return at->rules->radiance_over_pi ? gi_bsdf_radiometric(at) : 1;
+}
+
+/* ---- surface.c */
+
+/* The rays of the bundle: pixels[i] is where ray i began. */
+void gi_surface_bundle(const GiStage *stage, const uint32_t *pixels);
+
+/* A ray under way, with what it met; null: nothing. */
+void gi_surface_flight(const GiStage *stage, const GiFlight *flight, const GiTraceHit *hit);
+
+/* The shading of point i. */
+GiShading gi_surface_shading(const GiStage *stage, int i);
+
+/* Whether light from large sources is also looked for along directions that the bsdf draws. */
+bool gi_surface_probes(const GiWorld *world, const GiShader *shader);
+
+/* ---- lights.c: adds the light of all lights to all points, and forgets the points. */
+void gi_lights_add(const GiStage *stage);
+
+/* Whether the kernels know the shader's formula; *gloss is then made ready for them. */
+bool gi_lights_gloss(const GiRules *rules, const GiShader *shader, GiGloss *gloss);
+
+/* ---- flight.c */
+
+/* Notes a ray to be followed. */
+void gi_flight_add(const GiStage *stage, const GiFlight *flight);
+
+/* Follows the flights until none is left. */
+void gi_flight_follow(const GiStage *stage);

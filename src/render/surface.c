@@ -1,0 +1,385 @@
+/* SPDX-License-Identifier: MIT */
+#include "render/stage.h"
+#include "shade/shade.h"
+#include "texture/texture.h"
+
+/* A ray with what it met. */
+typedef struct Met {
+    GiVec origin, direction, factor;
+    double t;
+    GiArrival arrival;
+    GiShapeRef shape;
+    uint32_t instance, pixel;
+} Met;
+
+/* ---------------------------------------------------------------- points */
+
+static GiVec white(void) { return gi_vec(1, 1, 1); }
+
+/* From here on points count differently; those that are there count 1. */
+static void begin_weights(GiTileScratch *scratch) {
+    if (scratch->weighted) return;
+    scratch->weighted = true;
+    for (int i = 0; i < scratch->point_count; i++) scratch->factors[i] = white();
+}
+
+/* Writes the point after the last one. */
+static inline void add_point(
+    GiTileScratch *scratch, const GiSurfacePoint *at, GiVec direction, const GiSpot *spot) {
+    int i = scratch->point_count++;
+    GiPoints *points = &scratch->points;
+    points->px[i] = at->point.x, points->py[i] = at->point.y, points->pz[i] = at->point.z;
+    points->nx[i] = at->normal.x, points->ny[i] = at->normal.y, points->nz[i] = at->normal.z;
+    points->vx[i] = -direction.x, points->vy[i] = -direction.y, points->vz[i] = -direction.z;
+    points->error[i] = at->error;
+    scratch->spots[i] = *spot;
+}
+
+GiShading gi_surface_shading(const GiStage *stage, int i) {
+    const GiTileScratch *scratch = stage->scratch;
+    const GiPoints *points = &scratch->points;
+    const GiScene *scene = stage->world->scene;
+    const GiShader *shader = &scene->shaders.data[scratch->spots[i].shader];
+    return (GiShading){
+        .scene = scene,
+        .rules = stage->world->rules,
+        .shader = shader,
+        .normal = gi_vec(points->nx[i], points->ny[i], points->nz[i]),
+        .toward_viewer = gi_vec(points->vx[i], points->vy[i], points->vz[i]),
+        .diffuse = shader->texture == GI_NONE ? shader->diffuse : scratch->diffuse[i],
+    };
+}
+
+/* What shadow rays from a point of the shape do not meet. */
+static inline uint32_t skip_of(const GiWorld *world, GiShapeRef shape) {
+    if (world->rules->sphere_shadows_itself) return GI_SHAPE_NONE;
+    GiShapeRef own = gi_shape_unplaced(&world->shapes, shape);
+    return gi_shape_kind(own) == GI_SHAPE_SPHERE ? shape.bits : GI_SHAPE_NONE;
+}
+
+/* Goes on with the last segment, or begins another. */
+static inline void extend_segment(GiTileScratch *scratch, uint32_t shader) {
+    int count = scratch->segment_count;
+    if (count == 0 || scratch->segments[count - 1].shader != shader) {
+        scratch->segments[scratch->segment_count++] =
+            (GiSegment){shader, scratch->point_count, scratch->point_count + 1};
+    } else {
+        scratch->segments[count - 1].end = scratch->point_count + 1;
+    }
+}
+
+/* ---------------------------------------------------------------- what shines by itself */
+
+/* The share of the light from a large source that falls to a ray that found it by its bsdf; light
+ * drawn at the source has the rest. */
+static double share_of_flight(const GiFlight *flight, double light_density) {
+    return flight->density > 0 ? gi_stage_share(flight->density, light_density) : 1;
+}
+
+/* What a surface shows without any light. */
+static inline GiVec shine_of(const GiStage *stage, const GiShader *shader, GiVec normal) {
+    return gi_stage_draws(stage, -1) ? gi_shade_emit(shader, normal) : gi_vec(0, 0, 0);
+}
+
+/* A visible rectangle light shines from its front and is black behind. */
+static GiVec rectangle_emission(
+    const GiStage *stage, const GiFlight *flight, const Met *met, uint32_t light_index) {
+    const GiWorld *world = stage->world;
+    const GiLightRectangle *rectangle = &world->rectangles.data[light_index];
+    GiVec offset = gi_scale(met->direction, met->t);
+    double density = gi_rectangle_density(rectangle, offset);
+    if (!(density > 0) || !gi_stage_draws(stage, (int)light_index)) return gi_vec(0, 0, 0);
+    GiVec intensity = world->scene->lights.data[light_index].intensity;
+    return flight == NULL ? intensity : gi_scale(intensity, share_of_flight(flight, density));
+}
+
+/* What a ray sees that meets nothing. */
+static GiVec background(const GiStage *stage, const GiFlight *flight, GiVec direction) {
+    const GiWorld *world = stage->world;
+    const GiEnvironment *environment = &world->scene->environment;
+    if (!gi_stage_draws(stage, -1)) return gi_vec(0, 0, 0);
+    if (environment->face == 0) return world->scene->back_color;
+    GiVec radiance = gi_environment_radiance(environment, direction);
+    if (flight == NULL || !world->sky_lights) return radiance;
+    double density = gi_environment_density(&world->sky, direction);
+    return gi_scale(radiance, share_of_flight(flight, density));
+}
+
+/* ---------------------------------------------------------------- what goes on */
+
+bool gi_surface_probes(const GiWorld *world, const GiShader *shader) {
+    const GiRules *rules = world->rules;
+    if (!rules->area_light_visible && !rules->environment_lights) return false;
+    if (world->scene->integrator == GLINT_INTEGRATOR_PATH) return true;
+    return world->has_large_lights && shader->type != GLINT_SHADER_LAMBERTIAN &&
+           shader->type != GLINT_SHADER_RGB_NORMALS;
+}
+
+static GiFlight flight_from(const Met *met, const GiSurfacePoint *at) {
+    return (GiFlight){.origin = at->point,
+        .t_min = at->error,
+        .pixel = met->pixel,
+        .level = (uint32_t)met->arrival.level + 1};
+}
+
+/* The years' ray tree: all branches, down to the last level. */
+static void add_branches(
+    const GiStage *stage, const Met *met, const GiSurfacePoint *at, const GiScatter *scatter) {
+    if (met->arrival.level >= stage->world->rules->last_level) return;
+    for (int i = 0; i < scatter->count; i++) {
+        const GiBranch *branch = &scatter->branch[i];
+        GiFlight flight = flight_from(met, at);
+        flight.direction = branch->direction;
+        flight.factor = gi_multiply(met->factor, branch->factor);
+        flight.weight = branch->weight;
+        flight.inside = branch->inside;
+        gi_flight_add(stage, &flight);
+    }
+}
+
+/* A direction that the bsdf draws, for light from large sources and the rest of a path. False: it
+ * draws none. */
+static bool draw_direction(
+    const GiStage *stage, const Met *met, const GiScatter *scatter, GiFlight *flight) {
+    GiSampler sampler = gi_stage_sampler(stage, met->pixel);
+    uint32_t level = (uint32_t)met->arrival.level;
+    double u[3];
+    u[0] = gi_sample_1d(&sampler, gi_stage_dimension(level, GI_PURPOSE_LOBE));
+    gi_sample_2d(&sampler, gi_stage_dimension(level, GI_PURPOSE_BSDF), u + 1);
+    GiVec l;
+    double density = gi_bsdf_sample(&scatter->local, u, &l);
+    if (!(density > 0)) return false;
+    GiVec value = gi_bsdf_evaluate(&scatter->local, l);
+    double factor = gi_stage_radiance(&scatter->local) / density;
+    flight->direction = l;
+    flight->density = density;
+    flight->factor =
+        gi_multiply(gi_multiply(met->factor, scatter->local_factor), gi_scale(value, factor));
+    return !gi_vec_is_zero(flight->factor);
+}
+
+static void add_probe(
+    const GiStage *stage, const Met *met, const GiSurfacePoint *at, const GiScatter *scatter) {
+    GiFlight flight = flight_from(met, at);
+    flight.probe = true;
+    if (draw_direction(stage, met, scatter, &flight)) gi_flight_add(stage, &flight);
+}
+
+static double brightness(GiVec color) { return (color.x + color.y + color.z) / 3; }
+
+/* Goes on with a part p of all paths only, and lets each count 1 / p (Russian roulette). From the
+ * level on at which a path has had its chance. */
+static bool survives(const GiStage *stage, GiFlight *flight) {
+    enum { SAFE_LEVELS = 4 };
+    if (flight->level <= SAFE_LEVELS) return true;
+    double p = gi_largest(flight->factor);
+    if (p >= 1) return true;
+    GiSampler sampler = gi_stage_sampler(stage, flight->pixel);
+    uint32_t dimension = gi_stage_dimension(flight->level, GI_PURPOSE_ROULETTE);
+    if (!(gi_sample_1d(&sampler, dimension) < p)) return false;
+    flight->factor = gi_scale(flight->factor, 1 / p);
+    return true;
+}
+
+/* A path goes on in one direction: along a branch, or where the bsdf draws it. */
+static void add_path(
+    const GiStage *stage, const Met *met, const GiSurfacePoint *at, const GiScatter *scatter) {
+    double parts[GI_BRANCH_LIMIT + 1], sum = 0;
+    bool last = met->arrival.level >= stage->world->scene->max_depth;
+    for (int i = 0; i < scatter->count; i++)
+        sum += parts[i] = brightness(scatter->branch[i].factor);
+    parts[scatter->count] = scatter->local.shader != NULL ? brightness(scatter->local_factor) : 0;
+    sum += parts[scatter->count];
+    if (!(sum > 0)) return;
+    GiSampler sampler = gi_stage_sampler(stage, met->pixel);
+    double at_part = sum * gi_sample_1d(&sampler,
+                               gi_stage_dimension((uint32_t)met->arrival.level, GI_PURPOSE_CHOICE));
+    int chosen = 0;
+    while (chosen < scatter->count && at_part >= parts[chosen]) at_part -= parts[chosen++];
+    double chance = parts[chosen] / sum;
+    if (!(chance > 0)) return;
+    GiFlight flight = flight_from(met, at);
+    if (chosen < scatter->count) {
+        if (last) return;
+        const GiBranch *branch = &scatter->branch[chosen];
+        flight.direction = branch->direction;
+        flight.factor = gi_multiply(met->factor, branch->factor);
+        flight.weight = branch->weight;
+        flight.inside = branch->inside;
+    } else {
+        if (!draw_direction(stage, met, scatter, &flight)) return;
+        flight.weight = met->arrival.weight;
+        flight.inside = met->arrival.inside;
+        flight.probe = last;
+    }
+    flight.factor = gi_scale(flight.factor, 1 / chance);
+    if (survives(stage, &flight)) gi_flight_add(stage, &flight);
+}
+
+/* ---------------------------------------------------------------- surfaces */
+
+static GiVec texture_color(const GiWorld *world, const Met *met, GiVec point, uint32_t index) {
+    const GiTexture *texture = &world->scene->textures.data[index];
+    double uv[2];
+    gi_shape_texcoord(&world->shapes, met->shape, met->instance, point, uv);
+    return gi_texture_color(
+        &world->scene->pictures.data[texture->picture], texture->wrap, uv[0], uv[1]);
+}
+
+/* A surface that light sources cannot be seen on alone: it mirrors, refracts, or has a texture. */
+static void meet_layers(const GiStage *stage, const Met *met, const GiSurfacePoint *at,
+    const GiShader *shader, GiSpot spot) {
+    const GiWorld *world = stage->world;
+    GiTileScratch *scratch = stage->scratch;
+    const GiScene *scene = world->scene;
+    GiShading shading = {scene, world->rules, shader, at->normal, gi_negate(met->direction),
+        shader->texture == GI_NONE ? shader->diffuse
+                                   : texture_color(world, met, at->point, shader->texture)};
+    GiScatter scatter;
+    gi_bsdf_scatter(&shading, &met->arrival, &scatter);
+    GiShading *local = &scatter.local;
+    if (local->shader != NULL && local->shader != shader && local->shader->texture != GI_NONE) {
+        local->diffuse = texture_color(world, met, at->point, local->shader->texture);
+    }
+    if (scene->integrator == GLINT_INTEGRATOR_PATH) {
+        add_path(stage, met, at, &scatter);
+    } else if (scene->integrator != GLINT_INTEGRATOR_POINT_LIGHT) {
+        add_branches(stage, met, at, &scatter);
+        if (local->shader != NULL && gi_surface_probes(world, local->shader)) {
+            add_probe(stage, met, at, &scatter);
+        }
+    }
+    if (local->shader == NULL) return;
+    begin_weights(scratch);
+    spot.shader = (uint32_t)(local->shader - scene->shaders.data);
+    scratch->factors[scratch->point_count] = gi_multiply(met->factor, scatter.local_factor);
+    scratch->diffuse[scratch->point_count] = local->diffuse;
+    if (local->shader != shader) {
+        GiVec shine = shine_of(stage, local->shader, at->normal);
+        GiVec *color = &scratch->color[met->pixel];
+        *color = gi_add(*color, gi_multiply(scratch->factors[scratch->point_count], shine));
+    }
+    extend_segment(scratch, spot.shader);
+    add_point(scratch, at, met->direction, &spot);
+}
+
+/* Whether points of the shader are only lit, and nothing goes on from them. */
+static bool is_plain(const GiWorld *world, const GiShader *shader) {
+    bool plain = shader->type == GLINT_SHADER_LAMBERTIAN || shader->type == GLINT_SHADER_PHONG ||
+                 shader->type == GLINT_SHADER_RGB_NORMALS;
+    return plain && shader->texture == GI_NONE && !gi_surface_probes(world, shader) &&
+           gi_vec_is_zero(shader->mirror);
+}
+
+static inline GiSurfacePoint point_of(const GiWorld *world, const Met *met) {
+    return gi_shape_point(&world->shapes, met->shape, met->instance, met->origin, met->direction,
+        met->t, world->rules->cone_geometric);
+}
+
+/* Keeps what a camera ray met, for pictures of it. */
+static void note_seen(
+    const GiStage *stage, const Met *met, const GiSurfacePoint *at, const GiShader *shader) {
+    const GiWorld *world = stage->world;
+    GiSeen *seen = &stage->scratch->seen[met->pixel];
+    GiVec albedo = shader->texture == GI_NONE
+                       ? shader->diffuse
+                       : texture_color(world, met, at->point, shader->texture);
+    seen->normal = gi_add(seen->normal, at->normal);
+    seen->albedo = gi_add(seen->albedo, albedo);
+    seen->depth += met->t;
+    seen->count++;
+    if (stage->sample == 0) {
+        seen->surface = gi_shape_info(&world->shapes, met->shape, met->instance)->order + 1;
+    }
+}
+
+/* A camera ray's: its color is set, not added to. */
+static inline void meet_surface(
+    const GiStage *stage, const Met *met, uint32_t shader_index, bool plain) {
+    const GiWorld *world = stage->world;
+    GiTileScratch *scratch = stage->scratch;
+    const GiShader *shader = &world->scene->shaders.data[shader_index];
+    GiSurfacePoint at = point_of(world, met);
+    GiSpot spot = {met->pixel, shader_index, skip_of(world, met->shape), met->instance, 1};
+    scratch->color[met->pixel] = shine_of(stage, shader, at.normal);
+    if (scratch->seen != NULL) note_seen(stage, met, &at, shader);
+    if (!plain) {
+        meet_layers(stage, met, &at, shader, spot);
+        return;
+    }
+    if (scratch->weighted) scratch->factors[scratch->point_count] = white();
+    extend_segment(scratch, shader_index);
+    add_point(scratch, &at, met->direction, &spot);
+}
+
+static Met met_of_bundle(const GiBundle *bundle, int i, uint32_t pixel) {
+    return (Met){{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
+        {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, {1, 1, 1}, bundle->t[i], {1, 1, false},
+        {bundle->shape[i]}, bundle->instance[i], pixel};
+}
+
+/* Points of one shader come to stand side by side, so that kernels can shade many at a time. The
+ * order among a bundle's points does not matter, as each belongs to another pixel. */
+void gi_surface_bundle(const GiStage *stage, const uint32_t *pixels) {
+    const GiWorld *world = stage->world;
+    GiTileScratch *scratch = stage->scratch;
+    const GiBundle *bundle = &scratch->bundle;
+    uint32_t next[GI_BUNDLE_SIZE], shaders[GI_BUNDLE_SIZE];
+    int shader_count = 0;
+    for (int i = bundle->count - 1; i >= 0; i--) {
+        GiShapeRef shape = {bundle->shape[i]};
+        if (shape.bits == GI_SHAPE_NONE) {
+            GiVec direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]};
+            scratch->color[pixels[i]] = background(stage, NULL, direction);
+            continue;
+        }
+        if (gi_shape_kind(shape) == GI_SHAPE_RECTANGLE) {
+            Met met = met_of_bundle(bundle, i, pixels[i]);
+            scratch->color[pixels[i]] =
+                rectangle_emission(stage, NULL, &met, gi_shape_index(shape));
+            continue;
+        }
+        uint32_t shader = gi_shape_info(&world->shapes, shape, bundle->instance[i])->shader;
+        uint32_t *head = &scratch->head[shader];
+        if (*head == GI_NONE) shaders[shader_count++] = shader;
+        next[i] = *head;
+        *head = (uint32_t)i;
+    }
+    for (int k = 0; k < shader_count; k++) {
+        uint32_t *head = &scratch->head[shaders[k]];
+        bool plain = is_plain(world, &world->scene->shaders.data[shaders[k]]);
+        for (uint32_t i = *head; i != GI_NONE; i = next[i]) {
+            const Met met = met_of_bundle(bundle, (int)i, pixels[i]);
+            meet_surface(stage, &met, shaders[k], plain);
+        }
+        *head = GI_NONE;
+    }
+}
+
+void gi_surface_flight(const GiStage *stage, const GiFlight *flight, const GiTraceHit *hit) {
+    const GiWorld *world = stage->world;
+    GiVec *color = &stage->scratch->color[flight->pixel];
+    if (hit == NULL) {
+        GiVec light = background(stage, flight, flight->direction);
+        bool path = world->scene->integrator == GLINT_INTEGRATOR_PATH;
+        if (flight->probe && !world->sky_lights && !path) return;
+        *color = gi_add(*color, gi_multiply(flight->factor, light));
+        return;
+    }
+    const Met met = {flight->origin, flight->direction, flight->factor, hit->t,
+        {(int)flight->level, flight->weight, flight->inside}, hit->shape, hit->instance,
+        flight->pixel};
+    if (gi_shape_kind(hit->shape) == GI_SHAPE_RECTANGLE) {
+        GiVec light = rectangle_emission(stage, flight, &met, gi_shape_index(hit->shape));
+        *color = gi_add(*color, gi_multiply(flight->factor, light));
+        return;
+    }
+    if (flight->probe) return;
+    uint32_t index = gi_shape_info(&world->shapes, hit->shape, hit->instance)->shader;
+    const GiShader *shader = &world->scene->shaders.data[index];
+    GiSurfacePoint at = point_of(world, &met);
+    GiVec shine = shine_of(stage, shader, at.normal);
+    *color = gi_add(*color, gi_multiply(flight->factor, shine));
+    GiSpot spot = {flight->pixel, index, skip_of(world, hit->shape), hit->instance, flight->level};
+    meet_layers(stage, &met, &at, shader, spot);
+}

@@ -1,0 +1,812 @@
+/* SPDX-License-Identifier: MIT
+ * Mesh files: what the formats accept, what they refuse and in which line, the same result for any
+ * number of threads and any borders of chunks, and numbers rounded as strtof does. */
+#include "test.h"
+
+#include "mesh/decimal.h"
+#include "mesh/mesh.h"
+#include "random.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---------------------------------------------------------------- tools */
+
+typedef struct Loaded {
+    GiMemory memory;
+    GiMeshStore store;
+    GiMeshFault fault;
+    GlintStatus status;
+    uint32_t mesh;
+} Loaded;
+
+static void load_more(Loaded *loaded, GiMeshFormat format, const char *bytes, size_t size,
+    int thread_count, size_t chunk_size) {
+    GiMeshSource source = {.bytes = bytes,
+        .size = size,
+        .format = format,
+        .thread_count = thread_count,
+        .chunk_size = chunk_size};
+    loaded->fault = (GiMeshFault){0};
+    loaded->mesh = UINT32_MAX;
+    loaded->status =
+        gi_mesh_read(&loaded->store, &loaded->memory, &source, &loaded->mesh, &loaded->fault);
+}
+
+static void load(Loaded *loaded, GiMeshFormat format, const char *text) {
+    memset(loaded, 0, sizeof *loaded);
+    gi_memory_init(&loaded->memory, NULL, 0);
+    load_more(loaded, format, text, strlen(text), 1, 0);
+}
+
+static void unload(Loaded *loaded) {
+    gi_mesh_store_free(&loaded->store, &loaded->memory);
+    CHECK_INT(loaded->memory.used, 0);
+}
+
+/* The mesh as text, with all references followed, so that two of them can be compared. */
+static char *describe(const Loaded *loaded) {
+    static char texts[2][1 << 16];
+    static int turn;
+    char *text = texts[turn ^= 1], *end = text + sizeof texts[0], *p = text;
+    *p = '\0';
+    if (loaded->status != GLINT_OK) {
+        snprintf(
+            text, sizeof texts[0], "%" PRIu64 ": %s", loaded->fault.line, loaded->fault.message);
+        return text;
+    }
+    const GiMeshStore *store = &loaded->store;
+    const GiMesh *mesh = &store->meshes.data[loaded->mesh];
+    for (uint32_t i = 0; i < mesh->triangle_count && end - p > 400; i++) {
+        for (int k = 0; k < 3; k++) {
+            uint32_t at = store->corners.data[mesh->first_triangle + i][k];
+            const float *position = store->positions.data[at];
+            p += sprintf(p, "%g %g %g", position[0], position[1], position[2]);
+            uint32_t normal = at - mesh->first_position + mesh->first_normal, texcoord;
+            if (mesh->normal_corners != NULL) {
+                normal = mesh->normal_corners[i][k];
+                if (mesh->normal_corners[i][0] == GI_SHAPE_NONE) normal = GI_SHAPE_NONE;
+            }
+            if (mesh->smooth && normal != GI_SHAPE_NONE) {
+                const float *n = store->normals.data[normal];
+                p += sprintf(p, " n %g %g %g", n[0], n[1], n[2]);
+            }
+            texcoord = at - mesh->first_position + mesh->first_texcoord;
+            if (mesh->texcoord_corners != NULL) {
+                texcoord = mesh->texcoord_corners[i][k];
+                if (mesh->texcoord_corners[i][0] == GI_SHAPE_NONE) texcoord = GI_SHAPE_NONE;
+            }
+            if (mesh->textured && texcoord != GI_SHAPE_NONE) {
+                const float *t = store->texcoords.data[texcoord];
+                p += sprintf(p, " t %g %g", t[0], t[1]);
+            }
+            p += sprintf(p, k < 2 ? ", " : "; ");
+        }
+    }
+    return text;
+}
+
+static const char *const extensions[] = {"msh", "obj", "ply"};
+
+/* What a text gives, and that it gives the same for any borders and numbers of threads. */
+static void check_bytes(GiMeshFormat format, const char *bytes, size_t size, const char *expected) {
+    static const int thread_counts[] = {1, 2, 3, 8};
+    static const size_t chunk_sizes[] = {1, 2, 3, 5, 17, 64, 1000};
+    for (size_t i = 0; i < sizeof chunk_sizes / sizeof chunk_sizes[0]; i++) {
+        Loaded loaded = {.status = GLINT_OK};
+        gi_memory_init(&loaded.memory, NULL, 0);
+        load_more(&loaded, format, bytes, size, thread_counts[i % 4], chunk_sizes[i]);
+        const char *text = describe(&loaded);
+        if (strcmp(text, expected) != 0) {
+            test_fail(__FILE__, __LINE__, "%s in chunks of %zu: \"%.60s\" is \"%s\", not \"%s\"",
+                extensions[format], chunk_sizes[i], bytes, text, expected);
+            i = sizeof chunk_sizes;
+        }
+        unload(&loaded);
+    }
+}
+
+static void check(GiMeshFormat format, const char *text, const char *expected) {
+    check_bytes(format, text, strlen(text), expected);
+}
+
+/* ---------------------------------------------------------------- numbers */
+
+static void check_number(const char *text) {
+    size_t length = strlen(text);
+    char *expected_end;
+    float expected = strtof(text, &expected_end), value = 0;
+    /* A copy of exact size, so that reading past the end is found. */
+    char *copy = malloc(length + 1);
+    memcpy(copy, text, length);
+    const char *end = gi_decimal_read(copy, copy + length, &value);
+    if (end == NULL || end - copy != expected_end - text ||
+        memcmp(&value, &expected, sizeof value) != 0) {
+        test_fail(
+            __FILE__, __LINE__, "%s is %.9g, not %.9g", text, (double)value, (double)expected);
+    }
+    free(copy);
+}
+
+static float float_of_bits(uint32_t bits) {
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static void numbers_by_hand(void) {
+    static const char *const texts[] = {"0", "-0", "+0", "0.0", ".5", "5.", "-.5e1", "1e", "1e+",
+        "1e+x", "1.5.5", "1-2", "123456789012345678", "1234567890123456789",
+        "12345678901234567890123", "0.000000000000000000000000000000000000000000001",
+        "3.4028235e38", "3.4028236e38", "340282356779733661637539395458142568447",
+        "340282356779733661637539395458142568448", "340282356779733661637539395458142568449",
+        "3.4028235677973366e38", "1e39", "1e400", "1e99999999999999999999", "-1e39",
+        "0e99999999999999999999", "1e-45", "7e-46", "7.006492321624085e-46",
+        "7.0064923216240853546186479164495807e-46", "7.0064923216240853546186479164495806e-46",
+        "7.0064923216240853546186479164495e-46", "1e-46", "1e-99999999999999999999",
+        "1.1754943508222875e-38", "1.17549429e-38", "1.1754942807573643e-38", "16777217",
+        "16777217.0000000000000000000000001", "16777216.9999999999999999999999999", "16777219",
+        "33554434", "33554435", "33554437.99999999999999999999999999999999",
+        "1.00000005960464477539062500000000000000000000000000000000000000000000000000000000000000"
+        "0000000000000000000000000000000000000000000000000000000000000000000000000000000000000001",
+        "0.3", "0.1", "3.14159274101257324", "8.5899345920e9", "1e22", "1e23", "9007199254740993"};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) check_number(texts[i]);
+    static const char *const none[] = {
+        "", "-", "+", ".", "-.", "e5", "abc", "inf", "nan", " 1", "--1", "+-1"};
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++) {
+        float value;
+        CHECK(gi_decimal_read(none[i], none[i] + strlen(none[i]), &value) == NULL);
+    }
+}
+
+/* Floats as printed, what lies beside the middle of two, and digits at random. */
+static void numbers_at_random(void) {
+    Random random = {7};
+    char text[400];
+    for (int i = 0; i < 300000; i++) {
+        uint32_t bits = (uint32_t)random_bits(&random) & 0x7fffffff;
+        if (bits >= 0x7f7fffff) continue;
+        double value = (double)float_of_bits(bits);
+        double middle = (value + (double)float_of_bits(bits + 1)) / 2;
+        snprintf(text, sizeof text, "%.*g", random_below(&random, 20) + 1, value);
+        check_number(text);
+        if (i % 4 != 0) continue;
+        int length = snprintf(text, sizeof text, "%.*e", 112, middle);
+        check_number(text);
+        char *exponent = strchr(text, 'e');
+        exponent[-1] = (char)('0' + random_below(&random, 10));
+        check_number(text);
+        snprintf(text, sizeof text, "%.*e", random_below(&random, 40), middle);
+        check_number(text);
+        CHECK(length > 0);
+    }
+    for (int i = 0; i < 300000; i++) {
+        char *p = text;
+        if (random_below(&random, 2) != 0) *p++ = '-';
+        for (int k = random_below(&random, 24); k >= 0; k--) {
+            *p++ = (char)('0' + random_below(&random, 10));
+        }
+        *p++ = '.';
+        for (int k = random_below(&random, 12); k > 0; k--) {
+            *p++ = (char)('0' + random_below(&random, 10));
+        }
+        *p = '\0';
+        if (i % 2 != 0) sprintf(p, "e%d", random_below(&random, 110) - 60);
+        check_number(text);
+    }
+}
+
+/* ---------------------------------------------------------------- msh */
+
+static void msh(void) {
+    const char *flat = "1 0 0, 0 1 0, 0 0 1; ";
+    check(GI_MESH_MSH, "3\n1\nvertices\n1\n0\n0\n0\n1\n0\n0\n0\n1\ntriangles\n0\n1\n2\n", flat);
+    check(GI_MESH_MSH,
+        "3\r\n1\r\nvertices\r\n1\r\n0\r\n0\r\n0\r\n1\r\n0\r\n0\r\n0\r\n1\r\ntriangles\r\n0\r\n1\r\n"
+        "2",
+        flat);
+    check(GI_MESH_MSH, "  3 1 triangles 0 1 2\tvertices 1 0 0 0 1 0 0 0 1", flat);
+    check(GI_MESH_MSH, "3 1 triangles 0 1 2 vertices 1 0 0 0 1 0 0 0 1 normals 1 2 3 4 5 6 7 8 9",
+        "1 0 0 n 1 2 3, 0 1 0 n 4 5 6, 0 0 1 n 7 8 9; ");
+    check(GI_MESH_MSH,
+        "3 1 texcoords 1 2 3 4 5 6 triangles 0 1 2 normals 1 2 3 4 5 6 7 8 9 vertices 1 0 0 0 1 0 "
+        "0 0 1",
+        "1 0 0 n 1 2 3 t 1 2, 0 1 0 n 4 5 6 t 3 4, 0 0 1 n 7 8 9 t 5 6; ");
+    check(GI_MESH_MSH, "2 2 vertices 1e1 -.5 +2 0 1 0 triangles 0 0 0 1 1 0",
+        "10 -0.5 2, 10 -0.5 2, 10 -0.5 2; 0 1 0, 0 1 0, 10 -0.5 2; ");
+}
+
+static void msh_faults(void) {
+    static const char *const cases[][2] = {
+        {"", "1: the file ends before the number of vertices"},
+        {"3\n", "2: the file ends before the number of triangles"},
+        {"a 1 vertices", "1: expected the number of vertices, found \"a\""},
+        {"-3 1 vertices", "1: expected the number of vertices, found \"-3\""},
+        {"3\n1.5\n", "2: expected the number of triangles, found \"1.5\""},
+        {"1 1\nvertices\n1 2 3\n", "4: there is no section \"triangles\""},
+        {"1 1\ntriangles\n0 0 0", "3: there is no section \"vertices\""},
+        {"1 1", "1: there is no section \"vertices\""},
+        {"1 1\n7 vertices", "2: expected a keyword, found \"7\""},
+        {"1 1 vertices 1 2 3\ntriangles 0 0 0\n9\n", "3: expected a keyword, found \"9\""},
+        {"1 1 vertices 1 2 3\n4 triangles 0 0 0", "2: expected a keyword, found \"4\""},
+        {"1 1 vertices 1 2\ntriangles 0 0 0",
+            "2: the section ends after 2 of the 3 numbers of \"vertices\""},
+        {"1 1 vertices 1 2 3 triangles 0\n0\n",
+            "3: the file ends after 2 of the 3 numbers of \"triangles\""},
+        {"1 1 vertices 1\nabc 3 triangles 0 0 0", "2: expected a number, found \"abc\""},
+        {"1 1 vertices 1\nnan 3 triangles 0 0 0", "2: expected a number, found \"nan\""},
+        {"1 1 vertices 1\n1x 3 triangles 0 0 0", "2: expected a number, found \"1x\""},
+        {"1 1 vertices 1\n1\\ 3 triangles 0 0 0", "2: expected a number, found \"1\\\""},
+        {"1 1 vertices 1\n1e39 3 triangles 0 0 0",
+            "2: 1e39 is beyond the range of single precision"},
+        {"1 1 vertices 1 2 3\ncolours 1\ntriangles 0 0 0", "2: unknown keyword \"colours\""},
+        {"1 1 Vertices 1 2 3 triangles 0 0 0", "1: unknown keyword \"Vertices\""},
+        {"1 1 vertices 1 2 3\nvertices 1 2 3 triangles 0 0 0", "2: a second section \"vertices\""},
+        {"1 1 vertices 1 2 3\ntriangles 0\n1 0",
+            "3: triangle 0 names vertex 1, but the last of 1 is 0"},
+        {"1 1 vertices 1 2 3\ntriangles 0\n-1 0", "3: expected a vertex index, found \"-1\""},
+        {"1 1 vertices 1 2 3\ntriangles 0\n0.5 0", "3: expected a vertex index, found \"0.5\""},
+        {"1 0 vertices 1 2 3 triangles", "0: the mesh has no triangles"},
+        {"1000000000000 1 vertices 1 2 3",
+            "1: the file ends after 3 of the 3000000000000 numbers of \"vertices\""},
+        {"99999999999999999999999999 1 vertices 1 2 3 triangles 0 0 0", NULL},
+        {"1 1 vertices 1 2 3 triangles 0 0 0 a b c d e f g h i", "1: unknown keyword \"a\""},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        Loaded loaded;
+        load(&loaded, GI_MESH_MSH, cases[i][0]);
+        CHECK_INT(loaded.status, GLINT_ERROR_SCENE);
+        CHECK_INT(loaded.store.meshes.count, 0);
+        CHECK_INT(loaded.store.positions.count, 0);
+        char *expected = describe(&loaded);
+        if (cases[i][1] != NULL) CHECK_TEXT(expected, cases[i][1]);
+        check(GI_MESH_MSH, cases[i][0], expected);
+        unload(&loaded);
+    }
+}
+
+/* ---------------------------------------------------------------- obj */
+
+static void obj(void) {
+    const char *flat = "1 0 0, 0 1 0, 0 0 1; ";
+    check(GI_MESH_OBJ, "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", flat);
+    check(GI_MESH_OBJ, "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3", flat);
+    check(GI_MESH_OBJ, "# x\r\n\r\nv 1 0 0\r\nv  0\t1 0 \r\n v 0 0 1\r\nf 1 2 3 # last\r\n", flat);
+    check(GI_MESH_OBJ, "v 1 0 0 1\nv 0 1 0 .5 .5 .5\nv 0 0 1 1 .1 .2 .3\nf 1// 2/ 3\n", flat);
+    check(GI_MESH_OBJ, "f 1 2 3\nv 1 0 0\nv 0 1 0\nv 0 0 1\n", flat);
+    check(GI_MESH_OBJ, "v 1 0 0\nv 0 1 0\nv 0 0 1\nf -3 -2 -1\nv 9 9 9\n", flat);
+    check(GI_MESH_OBJ, "v 1 \\\n0 0\nv 0 1\\\r\n 0\nv 0 0 1\nf 1\\\n2 \\\n\\\n 3\n", flat);
+    check(GI_MESH_OBJ, "# in C:\\\nv 1 0 0\n#\\\nv 0 1 0 # 1\\\nv 8 8 8\nv 0 0 1\nf 1 2 3", flat);
+    check(GI_MESH_OBJ,
+        "mtllib a.mtl\no bunny\ng a b\ns off\nusemtl red\nv 1 0 0\nvp 1 2\nv 0 1 0\nl 1 2\np 1\n"
+        "v 0 0 1\nlod 1\ns 1\nf 1 2 3\n",
+        flat);
+    check(GI_MESH_OBJ, "v 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1\nf 1 2 3 4\nf 4 4 4\n",
+        "1 0 0, 0 1 0, 0 0 1; 1 0 0, 0 0 1, 1 1 1; 1 1 1, 1 1 1, 1 1 1; ");
+}
+
+/* Which faces have normals and texture coordinates. */
+static void obj_attributes(void) {
+#define VERTICES "v 1 0 0\nv 0 1 0\nv 0 0 1\n"
+#define NORMALS  "vn 1 2 3\nvn 4 5 6\nvn 7 8 9\n"
+#define TEXTURES "vt 1\nvt 2 3\nvt 4 5 6\n"
+    check(GI_MESH_OBJ, VERTICES NORMALS "f 1//1 2//2 3//3\n",
+        "1 0 0 n 1 2 3, 0 1 0 n 4 5 6, 0 0 1 n 7 8 9; ");
+    check(GI_MESH_OBJ, VERTICES NORMALS "f 1//-3 2//-2 3//-1\n",
+        "1 0 0 n 1 2 3, 0 1 0 n 4 5 6, 0 0 1 n 7 8 9; ");
+    check(GI_MESH_OBJ, VERTICES NORMALS "f 1//1 2//1 3//1\n",
+        "1 0 0 n 1 2 3, 0 1 0 n 1 2 3, 0 0 1 n 1 2 3; ");
+    check(GI_MESH_OBJ, VERTICES NORMALS "f 1//1 2 3//3\n", "1 0 0, 0 1 0, 0 0 1; ");
+    check(GI_MESH_OBJ, VERTICES NORMALS "f 1//1 2 3//3\nf 1//1 2//2 3//3\nf 1 2 3//3\n",
+        "1 0 0, 0 1 0, 0 0 1; 1 0 0 n 1 2 3, 0 1 0 n 4 5 6, 0 0 1 n 7 8 9; 1 0 0, 0 1 0, 0 0 1; ");
+    check(GI_MESH_OBJ, VERTICES NORMALS TEXTURES "f 1/1/1 2/2/2 3/3/3\n",
+        "1 0 0 n 1 2 3 t 1 0, 0 1 0 n 4 5 6 t 2 3, 0 0 1 n 7 8 9 t 4 5; ");
+    check(GI_MESH_OBJ, VERTICES NORMALS TEXTURES "f 1/1/1 2/2/2 3/3/3\nf 1/3 2/2 3/1\n",
+        "1 0 0 n 1 2 3 t 1 0, 0 1 0 n 4 5 6 t 2 3, 0 0 1 n 7 8 9 t 4 5; "
+        "1 0 0 t 4 5, 0 1 0 t 2 3, 0 0 1 t 1 0; ");
+    check(GI_MESH_OBJ, VERTICES TEXTURES "f 1/3 2/3 3/3 1/1\n",
+        "1 0 0 t 4 5, 0 1 0 t 4 5, 0 0 1 t 4 5; 1 0 0 t 4 5, 0 0 1 t 4 5, 1 0 0 t 1 0; ");
+}
+
+/* Corners of their own only where they differ; no room for what is not used. */
+static void obj_memory(void) {
+    Loaded loaded;
+    load(&loaded, GI_MESH_OBJ, VERTICES NORMALS TEXTURES "f 1//1 2//2 3//3\n");
+    const GiMesh *mesh = &loaded.store.meshes.data[0];
+    CHECK(mesh->smooth && !mesh->textured);
+    CHECK(mesh->normal_corners == NULL && mesh->texcoord_corners == NULL);
+    CHECK_INT(loaded.store.normals.capacity, 3);
+    CHECK_INT(loaded.store.texcoords.capacity, 0);
+    CHECK_INT(loaded.store.corners.capacity, 1);
+    /* The guess is that corners differ, and it is wrong. */
+    const char *text = VERTICES NORMALS TEXTURES "f -3/1/1 2/2/2 3/3/3\n";
+    load_more(&loaded, GI_MESH_OBJ, text, strlen(text), 1, 0);
+    mesh = &loaded.store.meshes.data[1];
+    CHECK(mesh->smooth && mesh->textured);
+    CHECK(mesh->normal_corners == NULL && mesh->texcoord_corners == NULL);
+    CHECK_INT(mesh->first_normal, 3);
+    CHECK_INT(mesh->first_texcoord, 0);
+    /* The other way round. */
+    text = VERTICES NORMALS TEXTURES "f 1/1/1 2/2/2 3/3/3\nf 1/1/2 2/2/2 3/3/3\n";
+    load_more(&loaded, GI_MESH_OBJ, text, strlen(text), 1, 0);
+    mesh = &loaded.store.meshes.data[2];
+    CHECK(mesh->normal_corners != NULL && mesh->texcoord_corners == NULL);
+    CHECK_INT(mesh->normal_corners[1][0], mesh->first_normal + 1);
+    CHECK_INT(mesh->first_triangle, 2);
+    CHECK_INT(mesh->first_position, 6);
+    CHECK_INT(loaded.store.corners.data[2][0], 6);
+    /* A file that fails leaves nothing behind. */
+    text = VERTICES "f 1 2 4\n";
+    load_more(&loaded, GI_MESH_OBJ, text, strlen(text), 1, 0);
+    CHECK_INT(loaded.status, GLINT_ERROR_SCENE);
+    CHECK_INT(loaded.store.meshes.count, 3);
+    CHECK_INT(loaded.store.positions.count, 9);
+    unload(&loaded);
+}
+
+static void obj_faults(void) {
+    static const char *const cases[][2] = {
+        {"", "0: the mesh has no triangles"},
+        {"v 1 2 3\n", "0: the mesh has no triangles"},
+        {"v 1 2\n", "1: expected 3 numbers, found 2"},
+        {"\nv\n", "2: expected 3 numbers, found 0"},
+        {"v 1 2 x\n", "1: expected a number, found \"x\""},
+        {"v 1 2 3x\n", "1: expected a number, found \"3x\""},
+        {"v 1 2 1,5\n", "1: expected a number, found \"1,5\""},
+        {"v 1 2 nan\n", "1: expected a number, found \"nan\""},
+        {"v 1 2 -inf\n", "1: expected a number, found \"-inf\""},
+        {"v 1 2 0x10\n", "1: expected a number, found \"0x10\""},
+        {"v 1 2 \\3\n", "1: expected a number, found \"\\3\""},
+        {"v 1 2 -1e40\n", "1: -1e40 is beyond the range of single precision"},
+        {"v 1 2 3 4 5 6 7 8\n", "1: expected the end of the line, found \"8\""},
+        {"vn 1 2\n", "1: expected 3 numbers, found 2"},
+        {"vn 1 2 3 4\n", "1: expected the end of the line, found \"4\""},
+        {"vt\n", "1: expected 1 numbers, found 0"},
+        {"vt 1 2 3 4\n", "1: expected the end of the line, found \"4\""},
+        {"v 1 2 3\n\nabc 1\n", "3: unknown keyword \"abc\""},
+        {"v 1 2 3\nvx 1\n", "2: unknown keyword \"vx\""},
+        {"v1 2 3\n", "1: unknown keyword \"v1\""},
+        {"\x01\xff 1\n", "1: unknown keyword \"??\""},
+        {VERTICES "f 1 2\n", "4: a face has at least 3 corners, not 2"},
+        {VERTICES "f\n", "4: a face has at least 3 corners, not 0"},
+        {VERTICES "f 1 2 9\n", "4: face corner 3 names vertex 9, but there are 3"},
+        {VERTICES "f 1 2 0\n", "4: face corner 3 names vertex 0, but they count from 1"},
+        {VERTICES "f 1 -4 2\n", "4: face corner 2 names vertex -4, but there are 3 so far"},
+        {"f 1 -1 2\n" VERTICES, "1: face corner 2 names vertex -1, but there are 0 so far"},
+        {VERTICES "f 1 2 99999999999999999999999\n",
+            "4: face corner 3 names vertex 99999999999999999999999, but there are 3"},
+        {VERTICES "f 1 2 -99999999999999999999999\n",
+            "4: face corner 3 names vertex -99999999999999999999999, but there are 3 so far"},
+        {VERTICES "f 1//1 2//1 3//1\n", "4: face corner 1 names normal 1, but there are 0"},
+        {VERTICES NORMALS "f 1//1 2//4 3//1\n", "7: face corner 2 names normal 4, but there are 3"},
+        {VERTICES TEXTURES "f 1/1 2/2 3/4\n",
+            "7: face corner 3 names texture coordinate 4, but there are 3"},
+        {VERTICES "f 1 2 x\n", "4: face corner 3: expected a number, found \"x\""},
+        {VERTICES "f 1 2 /1\n", "4: face corner 3: expected a number, found \"/1\""},
+        {VERTICES "f 1 2 3/x\n", "4: face corner 3: expected a number, found \"x\""},
+        {VERTICES "f 1 2 3x\n", "4: face corner 3 is not a, a/b, a//c or a/b/c: \"3x\""},
+        {VERTICES "f 1 2 3///1\n", "4: face corner 3: expected a number, found \"/1\""},
+        {VERTICES "f 1 2 1.5\n", "4: face corner 3 is not a, a/b, a//c or a/b/c: \"1.5\""},
+        {VERTICES "f 1 2 3 \\ 1\n", "4: face corner 4: expected a number, found \"\\\""},
+        {"v 1 2 3\\\n x\n", "2: expected a number, found \"x\""},
+        {"v 1 2 a123456789012345678901234567890123456789012345678901234567890123456789\n",
+            "1: expected a number, found \"a123456789012345678901234567890123456789...\""},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        check(GI_MESH_OBJ, cases[i][0], cases[i][1]);
+    }
+    check_bytes(GI_MESH_OBJ, "v 1 2\0 3\n", 9, "1: expected a number, found \"2?\"");
+    check_bytes(GI_MESH_MSH, "1 1\0 3\n", 7, "1: expected the number of triangles, found \"1?\"");
+}
+
+/* A surface with thousands of lines, with now these and now those corners. */
+static void obj_large(void) {
+    enum { COUNT = 900 };
+    static char text[1 << 18];
+    Random random = {3};
+    char *p = text;
+    for (int i = 0; i < COUNT; i++) {
+        if (i < 3 || random_below(&random, 2) != 0) {
+            p += sprintf(p, "v %d %d %d\nvn %d 0 1\nvt %d 2\n", i, i + 1, i + 2, i, i);
+        }
+        if (i >= 3 && random_below(&random, 4) != 0) {
+            bool relative = random_below(&random, 2) != 0;
+            p += sprintf(p, "f");
+            for (int k = random_below(&random, 4) + 2; k >= 0; k--) {
+                int at = relative ? -1 - random_below(&random, 3) : 1 + random_below(&random, 3);
+                if (i < 400) p += sprintf(p, " %d//%d", at, at);
+                if (i >= 400 && i < 600) p += sprintf(p, " %d/%d", at, relative ? -1 : 2);
+                if (i >= 600) p += sprintf(p, " %d", at);
+            }
+            p += sprintf(p, "\n");
+        }
+    }
+    Loaded whole;
+    load(&whole, GI_MESH_OBJ, text);
+    CHECK_INT(whole.status, GLINT_OK);
+    CHECK(whole.store.corners.count > 1000);
+    check(GI_MESH_OBJ, text, describe(&whole));
+    unload(&whole);
+    /* With a fault in the middle, and a second one after it. */
+    memcpy(text + (p - text) / 2, "\nq\n", 3);
+    memcpy(p - 20, "\nr\n", 3);
+    load(&whole, GI_MESH_OBJ, text);
+    CHECK_INT(whole.status, GLINT_ERROR_SCENE);
+    check(GI_MESH_OBJ, text, describe(&whole));
+    unload(&whole);
+}
+
+/* ---------------------------------------------------------------- ply */
+
+#define PLY_ASCII "ply\nformat ascii 1.0\n"
+#define PLY_XYZ   "property float x\nproperty float y\nproperty float z\n"
+#define PLY_FACES "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+#define PLY_THREE PLY_ASCII "element vertex 3\n" PLY_XYZ PLY_FACES
+
+static void ply_ascii(void) {
+    const char *flat = "1 0 0, 0 1 0, 0 0 1; ";
+    check(GI_MESH_PLY, PLY_THREE "1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n", flat);
+    check(GI_MESH_PLY, PLY_THREE "1 0 0 0 1 0 0 0 1\r\n3 0 1 2", flat);
+    check(GI_MESH_PLY,
+        "ply\r\ncomment made by hand\r\nformat ascii 1.0\r\nobj_info x y z q r s t u v w\r\n"
+        "element camera 2\r\nproperty float x\r\nproperty list uint8 float64 y\r\n"
+        "element vertex 3\r\nproperty uchar red\r\nproperty float64 x\r\nproperty int16 y\r\n"
+        "property list short int8 extra\r\nproperty float32 z\r\nelement nothing 1000000000000\r\n"
+        "element face 1\r\nproperty uchar q\r\nproperty list uint32 uint16 vertex_index\r\n"
+        "property list int float32 quality\r\nelement edge 1\r\nproperty int vertex1\r\n"
+        "end_header\r\n"
+        "1 2 x y\r\n2 0\r\n255 1 0 2 5 5 0\r\n255 0 1 0 0\r\n255 0 0 1 7 1\r\n"
+        "1 3 0 1 2 1 .5\r\n6\r\n",
+        flat);
+    check(GI_MESH_PLY,
+        PLY_ASCII "element face 2\nproperty list uchar int vertex_indices\n"
+                  "element vertex 4\n" PLY_XYZ "end_header\n"
+                  "4 0 1 2 3\n3 1 1 1\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n",
+        "1 0 0, 0 1 0, 0 0 1; 1 0 0, 0 0 1, 1 1 1; 0 1 0, 0 1 0, 0 1 0; ");
+    check(GI_MESH_PLY,
+        PLY_ASCII "element vertex 3\n" PLY_XYZ
+                  "property float nx\nproperty float ny\nproperty float nz\n"
+                  "property float s\nproperty float t\n" PLY_FACES
+                  "1 0 0 1 2 3 .1 .2\n0 1 0 4 5 6 .3 .4\n0 0 1 7 8 9 .5 .6\n3 0 1 2\n",
+        "1 0 0 n 1 2 3 t 0.1 0.2, 0 1 0 n 4 5 6 t 0.3 0.4, 0 0 1 n 7 8 9 t 0.5 0.6; ");
+    check(GI_MESH_PLY,
+        PLY_ASCII "element vertex 3\n" PLY_XYZ "property float nx\nproperty float texture_u\n"
+                  "property float texture_v\n" PLY_FACES
+                  "1 0 0 1 2 3\n0 1 0 4 5 6\n0 0 1 7 8 9\n3 0 1 2\n",
+        "1 0 0 t 2 3, 0 1 0 t 5 6, 0 0 1 t 8 9; ");
+}
+
+/* A file of bytes, made value by value. */
+typedef struct Bytes {
+    char data[4096];
+    size_t size;
+    bool big;
+} Bytes;
+
+static void put(Bytes *bytes, const void *value, size_t size) {
+    for (size_t i = 0; i < size; i++) {
+        uint64_t bits = 0;
+        if (size == 1) bits = *(const uint8_t *)value;
+        if (size == 2) bits = *(const uint16_t *)value;
+        if (size == 4) bits = *(const uint32_t *)value;
+        if (size == 8) bits = *(const uint64_t *)value;
+        size_t shift = 8 * (bytes->big ? size - 1 - i : i);
+        bytes->data[bytes->size++] = (char)(bits >> shift);
+    }
+}
+
+static void put_text(Bytes *bytes, const char *text) {
+    memcpy(bytes->data + bytes->size, text, strlen(text));
+    bytes->size += strlen(text);
+}
+
+static void make_binary(Bytes *bytes, bool big, float last, int32_t corner) {
+    *bytes = (Bytes){.big = big};
+    put_text(bytes, "ply\nformat binary_");
+    put_text(bytes, big ? "big" : "little");
+    put_text(bytes, "_endian 1.0\nelement before 1\nproperty short a\nelement vertex 4\n"
+                    "property float x\nproperty double y\nproperty uchar red\nproperty float z\n"
+                    "property double u\nproperty float v\nelement face 2\nproperty short a\n"
+                    "property list ushort int vertex_indices\nproperty list uchar double b\n"
+                    "end_header\n");
+    put(bytes, &(int16_t){-1}, 2);
+    for (int i = 0; i < 4; i++) {
+        put(bytes, &(float){(float)i}, 4);
+        put(bytes, &(double){i + 0.5}, 8);
+        put(bytes, &(uint8_t){10}, 1);
+        put(bytes, &(float){i == 3 ? last : -1}, 4);
+        put(bytes, &(double){7}, 8);
+        put(bytes, &(float){0.25f}, 4);
+    }
+    for (int i = 0; i < 2; i++) {
+        put(bytes, &(int16_t){10}, 2);
+        put(bytes, &(uint16_t){(uint16_t)(3 + i)}, 2);
+        for (int k = 0; k < 3 + i; k++) put(bytes, &(int32_t){k == 3 ? corner : k}, 4);
+        put(bytes, &(uint8_t){(uint8_t)i}, 1);
+        if (i == 1) put(bytes, &(double){5}, 8);
+    }
+}
+
+static void ply_binary(void) {
+    for (int big = 0; big < 2; big++) {
+        Bytes bytes;
+        make_binary(&bytes, big != 0, -2, 3);
+        const char *expected = "0 0.5 -1 t 7 0.25, 1 1.5 -1 t 7 0.25, 2 2.5 -1 t 7 0.25; "
+                               "0 0.5 -1 t 7 0.25, 1 1.5 -1 t 7 0.25, 2 2.5 -1 t 7 0.25; "
+                               "0 0.5 -1 t 7 0.25, 2 2.5 -1 t 7 0.25, 3 3.5 -2 t 7 0.25; ";
+        check_bytes(GI_MESH_PLY, bytes.data, bytes.size, expected);
+        bytes.data[bytes.size] = 'x'; /* what follows is not looked at */
+        check_bytes(GI_MESH_PLY, bytes.data, bytes.size + 1, expected);
+        for (size_t size = strlen(PLY_ASCII); size < bytes.size; size++) {
+            Loaded loaded = {.status = GLINT_OK};
+            gi_memory_init(&loaded.memory, NULL, 0);
+            load_more(&loaded, GI_MESH_PLY, bytes.data, size, 1, 0);
+            CHECK_INT(loaded.status, GLINT_ERROR_SCENE);
+            unload(&loaded);
+        }
+        check_bytes(
+            GI_MESH_PLY, bytes.data, bytes.size - 1, "0: the file ends before its last element");
+        make_binary(&bytes, big != 0, INFINITY, 3);
+        check_bytes(GI_MESH_PLY, bytes.data, bytes.size, "0: a number of a vertex is not finite");
+        make_binary(&bytes, big != 0, 1, 4);
+        check_bytes(
+            GI_MESH_PLY, bytes.data, bytes.size, "0: face 1 names vertex 4, but there are 4");
+        make_binary(&bytes, big != 0, 1, -1);
+        check_bytes(
+            GI_MESH_PLY, bytes.data, bytes.size, "0: face 1 names vertex -1, but there are 4");
+    }
+}
+
+static void ply_faults(void) {
+    static const char *const cases[][2] = {
+        {"", "1: expected \"ply\", found nothing"},
+        {"plx\n", "1: expected \"ply\", found \"plx\""},
+        {"ply\n", "2: the file ends within its header"},
+        {"ply\nformat\n",
+            "2: expected ascii, binary_little_endian or binary_big_endian, found nothing"},
+        {"ply\nformat text 1.0\n",
+            "2: expected ascii, binary_little_endian or binary_big_endian, found \"text\""},
+        {"ply\nformat ascii 2.0\n", "2: expected 1.0, found \"2.0\""},
+        {PLY_ASCII "format ascii 1.0\n", "3: a second format"},
+        {PLY_ASCII "colour red\n", "3: expected a line of a header, found \"colour\""},
+        {PLY_ASCII "property int x\n", "3: a property without an element"},
+        {PLY_ASCII "element\n", "3: expected the name of an element, found nothing"},
+        {PLY_ASCII "element a\n", "3: expected a number of elements, found nothing"},
+        {PLY_ASCII "element a -1\n", "3: expected a number of elements, found \"-1\""},
+        {PLY_ASCII "element a 1x\n", "3: expected a number of elements, found \"1x\""},
+        {PLY_ASCII "element a 1 2\n", "3: expected the end of the line, found \"2\""},
+        {PLY_ASCII "element face 1\nelement face 1\n", "4: a second element \"face\""},
+        {PLY_ASCII "element a 1\nproperty\n", "4: expected a type, found nothing"},
+        {PLY_ASCII "element a 1\nproperty half x\n", "4: expected a type, found \"half\""},
+        {PLY_ASCII "element a 1\nproperty int\n",
+            "4: expected the name of a property, found nothing"},
+        {PLY_ASCII "element a 1\nproperty int x y\n",
+            "4: expected the end of the line, found \"y\""},
+        {PLY_ASCII "element a 1\nproperty list float int x\n",
+            "4: expected the type of a whole number, found \"float\""},
+        {PLY_ASCII "element face 1\nproperty list int float vertex_indices\n",
+            "4: expected the type of a whole number, found \"float\""},
+        {"ply\nelement a 1\nend_header\n", "3: the header names no format"},
+        {PLY_ASCII "end_header\n", "3: there is no element \"vertex\""},
+        {PLY_ASCII "element vertex 1\n" PLY_XYZ "end_header", "7: there is no element \"face\""},
+        {PLY_ASCII "element vertex 1\nproperty float x\nproperty float z\n" PLY_FACES,
+            "8: a vertex lacks x, y or z"},
+        {PLY_ASCII "element vertex 1\n" PLY_XYZ "element face 1\nproperty int a\nend_header\n",
+            "9: a face lacks its list vertex_indices"},
+        {PLY_THREE "1 2 3\n", "11: the file ends before its last element"},
+        {PLY_THREE "1 2 3 4 5 6 7 8 9\n3 1 2\n", "12: the file ends before its last element"},
+        {PLY_THREE "1 2 3 4 5 x 7 8 9\n3 0 1 2\n", "10: expected a number, found \"x\""},
+        {PLY_THREE "1 2 3 4 5 1e50 7 8 9\n3 0 1 2\n",
+            "10: 1e50 is beyond the range of single precision"},
+        {PLY_THREE "1 2 3 4 5 6 7 8 9\n3 0 1 3\n", "11: face 0 names vertex 3, but there are 3"},
+        {PLY_THREE "1 2 3 4 5 6 7 8 9\n3 0 1 -1\n", "11: face 0 names vertex -1, but there are 3"},
+        {PLY_THREE "1 2 3 4 5 6 7 8 9\n3 0 1 1.5\n", "11: expected a whole number, found \"1.5\""},
+        {PLY_THREE "1 2 3 4 5 6 7 8 9\n2 0 1\n", "11: face 0 has 2 corners, which is less than 3"},
+        {PLY_THREE "1 2 3 4 5 6 7 8 9\n-2 0 1\n", "11: a list has -2 entries"},
+        {PLY_THREE "1 2 3 4 5 6 7 8 9\n9999999999999999999999 0 1\n",
+            "12: the file ends before its last element"},
+        {PLY_THREE "1 2 3 4 5 6 7 8 9\n3 0 1 2\n1",
+            "12: expected the end of the file, found \"1\""},
+        {PLY_ASCII "element vertex 1000000000000\n" PLY_XYZ PLY_FACES "1 2 3\n",
+            "11: the file ends before its last element"},
+        {PLY_ASCII "element vertex 1\n" PLY_XYZ
+                   "element face 0\nproperty list int int vertex_index\nend_header\n1 2 3",
+            "0: the mesh has no triangles"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        check(GI_MESH_PLY, cases[i][0], cases[i][1]);
+    }
+}
+
+/* ---------------------------------------------------------------- memory */
+
+typedef struct Failing {
+    long requests, fail_at;
+} Failing;
+
+static void *failing_reallocate(void *user, void *pointer, size_t old_size, size_t new_size) {
+    Failing *failing = user;
+    (void)old_size;
+    if (new_size == 0) {
+        free(pointer);
+        return NULL;
+    }
+    /* The workers of the loader ask for nothing, so there is no need for an atomic counter. */
+    return ++failing->requests == failing->fail_at ? NULL : realloc(pointer, new_size);
+}
+
+static void failing_allocator(void) {
+    static const char *const texts[] = {
+        "3 1 vertices 1 0 0 0 1 0 0 0 1 triangles 0 1 2 normals 1 2 3 4 5 6 7 8 9 texcoords "
+        "1 2 3 4 5 6",
+        VERTICES NORMALS TEXTURES "f 1/1/1 2/2/2 3/3/3\nf 3/2/1 2/2/2 1/3/1\n",
+        PLY_ASCII "element vertex 3\n" PLY_XYZ "property float nx\nproperty float ny\n"
+                  "property float nz\nproperty float s\nproperty float t\n" PLY_FACES
+                  "1 0 0 1 2 3 .1 .2\n0 1 0 4 5 6 .3 .4\n0 0 1 7 8 9 .5 .6\n3 0 1 2\n"};
+    for (int format = 0; format < GI_MESH_FORMAT_COUNT; format++) {
+        long failed = 0;
+        for (long n = 1; n < 100; n++) {
+            Failing failing = {.fail_at = n};
+            GlintAllocator allocator = {failing_reallocate, &failing};
+            Loaded loaded = {.status = GLINT_OK};
+            gi_memory_init(&loaded.memory, &allocator, 0);
+            load_more(&loaded, (GiMeshFormat)format, texts[format], strlen(texts[format]), 3, 8);
+            if (failing.requests < n) {
+                CHECK_INT(loaded.status, GLINT_OK);
+                n = 100;
+            } else if (loaded.status != GLINT_OK) {
+                CHECK_INT(loaded.status, GLINT_ERROR_MEMORY);
+                CHECK_TEXT(loaded.fault.message, "not enough memory");
+                CHECK_INT(loaded.store.meshes.count, 0);
+                failed++;
+            }
+            unload(&loaded);
+        }
+        CHECK(failed > 5);
+    }
+}
+
+/* ---------------------------------------------------------------- calls and files */
+
+static void by_calls(void) {
+    static const GiFloat3 positions[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const GiFloat3 normals[] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+    static const GiFloat2 texcoords[] = {{1, 2}, {3, 4}, {5, 6}};
+    static const GiCorners triangles[] = {{0, 1, 2}, {2, 1, 3}};
+    Loaded loaded = {.status = GLINT_OK};
+    gi_memory_init(&loaded.memory, NULL, 0);
+    GiMeshArrays arrays = {positions, NULL, NULL, triangles, 3, 1};
+    for (int i = 0; i < 2; i++) {
+        loaded.status =
+            gi_mesh_add(&loaded.store, &loaded.memory, &arrays, &loaded.mesh, &loaded.fault);
+        CHECK_INT(loaded.mesh, i);
+        CHECK_TEXT(describe(&loaded), i == 0 ? "1 0 0, 0 1 0, 0 0 1; "
+                                             : "1 0 0 n 1 2 3 t 1 2, 0 1 0 n 4 5 6 t 3 4, "
+                                               "0 0 1 n 7 8 9 t 5 6; ");
+        arrays.normals = normals;
+        arrays.texcoords = texcoords;
+    }
+    arrays.triangle_count = 2;
+    loaded.status =
+        gi_mesh_add(&loaded.store, &loaded.memory, &arrays, &loaded.mesh, &loaded.fault);
+    CHECK_TEXT(describe(&loaded), "0: triangle 1 names vertex 3, but there are 3");
+    arrays.triangle_count = 0;
+    loaded.status =
+        gi_mesh_add(&loaded.store, &loaded.memory, &arrays, &loaded.mesh, &loaded.fault);
+    CHECK_TEXT(describe(&loaded), "0: the mesh has no triangles");
+    arrays.triangle_count = 1;
+    arrays.positions = (const GiFloat3[]){{1, 0, 0}, {0, NAN, 0}, {0, 0, 1}};
+    loaded.status =
+        gi_mesh_add(&loaded.store, &loaded.memory, &arrays, &loaded.mesh, &loaded.fault);
+    CHECK_TEXT(describe(&loaded), "0: a number of the mesh is not finite");
+    arrays.triangle_count = (size_t)GI_SHAPE_INDEX_LIMIT + 1;
+    CHECK_INT(loaded.store.meshes.count, 2);
+    unload(&loaded);
+}
+
+static const char *load_file(Loaded *loaded, const char *path, const GlintMonitor *monitor) {
+    memset(loaded, 0, sizeof *loaded);
+    gi_memory_init(&loaded->memory, NULL, 0);
+    loaded->status = gi_mesh_load(
+        &loaded->store, &loaded->memory, 2, path, monitor, &loaded->mesh, &loaded->fault);
+    return describe(loaded);
+}
+
+static bool always_cancelled(void *user) {
+    (void)user;
+    return true;
+}
+
+static void files(void) {
+    CHECK_INT(gi_mesh_format("a/b.MSH"), GI_MESH_MSH);
+    CHECK_INT(gi_mesh_format(".Obj"), GI_MESH_OBJ);
+    CHECK_INT(gi_mesh_format("x.obj.ply"), GI_MESH_PLY);
+    CHECK_INT(gi_mesh_format("obj"), GI_MESH_FORMAT_COUNT);
+    CHECK_INT(gi_mesh_format("x.obj "), GI_MESH_FORMAT_COUNT);
+    Loaded loaded;
+    CHECK_TEXT(load_file(&loaded, "/x/y.stl", NULL),
+        "0: the name of a mesh file ends in .msh, .obj or .ply");
+    CHECK_INT(loaded.status, GLINT_ERROR_SCENE);
+    unload(&loaded);
+    CHECK_TEXT(
+        load_file(&loaded, "/x/y.obj", NULL), "0: cannot read the file: No such file or directory");
+    CHECK_INT(loaded.status, GLINT_ERROR_FILE);
+    unload(&loaded);
+
+    char path[4096];
+    snprintf(path, sizeof path, "%s/mesh.obj", test_scratch_dir());
+    FILE *file = fopen(path, "wb");
+    CHECK(file != NULL);
+    if (file == NULL) return;
+    fclose(file);
+    CHECK_TEXT(load_file(&loaded, path, NULL), "0: the mesh has no triangles");
+    unload(&loaded);
+    file = fopen(path, "wb");
+    CHECK(file != NULL);
+    if (file == NULL) return;
+    fputs(VERTICES, file);
+    /* More than what one thread is taken for. */
+    for (int i = 0; i < 1000000; i++) fputs("f 1 2 3\n", file);
+    fclose(file);
+    load_file(&loaded, path, NULL);
+    CHECK_INT(loaded.status, GLINT_OK);
+    CHECK_INT(loaded.store.corners.count, 1000000);
+    CHECK_INT(loaded.store.corners.data[999999][2], 2);
+    CHECK(loaded.memory.peak < 12100000);
+    unload(&loaded);
+    GlintMonitor monitor = {.cancelled = always_cancelled};
+    CHECK_TEXT(load_file(&loaded, path, &monitor), "0: the caller cancelled");
+    CHECK_INT(loaded.status, GLINT_CANCELLED);
+    unload(&loaded);
+}
+
+/* The meshes of the course, where they are at hand. */
+static void reference(void) {
+    static const struct {
+        const char *path;
+        unsigned triangle_count, position_count, normal_count, texcoord_count;
+    } meshes[] = {
+        {"2012/TEST3/bunny500.msh", 500, 293, 0, 0},
+        {"2012/TEST3/bunny500_norms.msh", 500, 293, 293, 0},
+        {"2012/TEST4/check20.msh", 400, 441, 0, 0},
+        {"2012/TEST4/diamond.msh", 72, 38, 0, 0},
+        {"2012/TEST5/buddha100k.msh", 100000, 49950, 0, 0},
+        {"2012/TEST5/bunny10k.msh", 10000, 5088, 0, 0},
+        {"2012/TEST5/sphere.msh", 760, 382, 382, 0},
+        {"2017/ray1/a2/data/meshes/bunny-shadow-v2.obj", 130, 71, 0, 0},
+        {"2017/ray1/a2/data/meshes/plane.obj", 2, 4, 0, 4},
+        {"2017/ray1/a2/data/meshes/teapot.obj", 6320, 3241, 3242, 1716},
+        {"2017/ray2/a7/data/meshes/horse_norms.obj", 96966, 48485, 48485, 0},
+        {"2019/ray/data/meshes/bunny.obj", 4968, 2503, 0, 0},
+        {"2019/ray/data/meshes/bunnyNV.obj", 4968, 2503, 2503, 0},
+        {"2018/ray1/a2/data/meshes/sphere.obj", 1984, 994, 994, 1040},
+    };
+    if (test_shared_dir() == NULL) {
+        test_skip("there is no ../shared");
+        return;
+    }
+    for (size_t i = 0; i < sizeof meshes / sizeof meshes[0]; i++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%s/reference/%s", test_shared_dir(), meshes[i].path);
+        Loaded loaded;
+        load_file(&loaded, path, NULL);
+        if (loaded.status != GLINT_OK) {
+            test_fail(__FILE__, __LINE__, "%s:%" PRIu64 ": %s", path, loaded.fault.line,
+                loaded.fault.message);
+        }
+        CHECK_INT(loaded.store.corners.count, meshes[i].triangle_count);
+        CHECK_INT(loaded.store.positions.count, meshes[i].position_count);
+        CHECK_INT(loaded.store.normals.count, meshes[i].normal_count);
+        CHECK_INT(loaded.store.texcoords.count, meshes[i].texcoord_count);
+        unload(&loaded);
+    }
+}
+
+const GiTest tests_mesh[] = {TEST(numbers_by_hand), TEST(numbers_at_random), TEST(msh),
+    TEST(msh_faults), TEST(obj), TEST(obj_attributes), TEST(obj_memory), TEST(obj_faults),
+    TEST(obj_large), TEST(ply_ascii), TEST(ply_binary), TEST(ply_faults), TEST(failing_allocator),
+    TEST(by_calls), TEST(files), TEST(reference), TEST_END};
