@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT
  * glint-exr.so: EXR with OpenEXRCore, the C library of OpenEXR: one part, rows from top to bottom
- * in chunks of 16, 32-bit floats, ZIP. The library's working memory, a chunk or two, is its own. */
+ * in chunks of 16, 32-bit floats, ZIP. Chunks are compressed in batches, by many threads, and
+ * written by the caller's, so that the file does not depend on the number of threads. The working
+ * memory, a few chunks, comes from malloc. */
 #include "image/exr_writer.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <openexr.h>
@@ -11,22 +14,27 @@
 /* Noise in the lower bits of a float cannot be compressed; a higher level only costs time. */
 enum { ZIP_LEVEL = 2, PART = 0 };
 
+/* A chunk on its way. */
+typedef struct Slot {
+    exr_encode_pipeline_t pipeline;
+    bool has_pipeline;
+    exr_result_t result;
+} Slot;
+
 typedef struct Writer {
     const GiExrPicture *picture;
     const GiExrTarget *target;
     exr_context_t context;
-    exr_encode_pipeline_t pipeline;
-    bool has_pipeline, stopped;
+    Slot *slots;
+    int first, rows; /* row of the first slot, rows of a chunk */
+    bool stopped;
 } Writer;
 
+/* OpenEXR would print it; results tell enough. */
 static void on_error(exr_const_context_t context, exr_result_t code, const char *text) {
-    void *user = NULL;
+    (void)context;
     (void)code;
-    if (context == NULL || exr_get_user_data(context, &user) != EXR_ERR_SUCCESS || user == NULL) {
-        return;
-    }
-    const GiExrTarget *target = ((Writer *)user)->target;
-    snprintf(target->message, target->message_size, "OpenEXR: %s", text);
+    (void)text;
 }
 
 static int64_t on_write(exr_const_context_t context, void *user, const void *bytes, uint64_t size,
@@ -73,10 +81,9 @@ static exr_result_t write_header(Writer *writer) {
 }
 
 /* Tells the pipeline, whose channels are sorted by name, where the rows from y on lie. */
-static void set_rows(Writer *writer, int y) {
-    const GiExrPicture *picture = writer->picture;
-    for (int i = 0; i < writer->pipeline.channel_count; i++) {
-        exr_coding_channel_info_t *to = &writer->pipeline.channels[i];
+static void set_rows(exr_encode_pipeline_t *pipeline, const GiExrPicture *picture, int y) {
+    for (int i = 0; i < pipeline->channel_count; i++) {
+        exr_coding_channel_info_t *to = &pipeline->channels[i];
         const GiExrChannel *from = picture->channels;
         while (strcmp(from->name, to->channel_name) != 0) from++;
         size_t row = (size_t)picture->width * (size_t)from->stride;
@@ -89,29 +96,60 @@ static void set_rows(Writer *writer, int y) {
     }
 }
 
-static exr_result_t write_chunk(Writer *writer, int y) {
+/* In the place of writing: the chunk stays in the pipeline. */
+static exr_result_t keep(exr_encode_pipeline_t *pipeline) {
+    (void)pipeline;
+    return EXR_ERR_SUCCESS;
+}
+
+static exr_result_t compress(Writer *writer, Slot *slot, int y) {
+    exr_encode_pipeline_t *pipeline = &slot->pipeline;
     exr_chunk_info_t chunk;
     TRY(exr_write_scanline_chunk_info(writer->context, PART, y, &chunk));
-    if (writer->has_pipeline) {
-        TRY(exr_encoding_update(writer->context, PART, &chunk, &writer->pipeline));
-        set_rows(writer, y);
+    if (slot->has_pipeline) {
+        TRY(exr_encoding_update(writer->context, PART, &chunk, pipeline));
+        set_rows(pipeline, writer->picture, y);
     } else {
-        TRY(exr_encoding_initialize(writer->context, PART, &chunk, &writer->pipeline));
-        writer->has_pipeline = true;
-        set_rows(writer, y);
-        TRY(exr_encoding_choose_default_routines(writer->context, PART, &writer->pipeline));
+        TRY(exr_encoding_initialize(writer->context, PART, &chunk, pipeline));
+        slot->has_pipeline = true;
+        set_rows(pipeline, writer->picture, y);
+        TRY(exr_encoding_choose_default_routines(writer->context, PART, pipeline));
+        pipeline->yield_until_ready_fn = keep;
+        pipeline->write_fn = keep;
     }
-    return exr_encoding_run(writer->context, PART, &writer->pipeline);
+    return exr_encoding_run(writer->context, PART, pipeline);
+}
+
+static void compress_slot(void *context, size_t index) {
+    Writer *writer = context;
+    Slot *slot = &writer->slots[index];
+    slot->result = compress(writer, slot, writer->first + (int)index * writer->rows);
+}
+
+static exr_result_t write_batch(Writer *writer, size_t count) {
+    writer->target->run(writer->target->user, count, compress_slot, writer);
+    for (size_t i = 0; i < count; i++) {
+        const exr_encode_pipeline_t *pipeline = &writer->slots[i].pipeline;
+        TRY(writer->slots[i].result);
+        TRY(exr_write_scanline_chunk(writer->context, PART, writer->first,
+            pipeline->compressed_buffer, pipeline->compressed_bytes));
+        writer->first += writer->rows;
+    }
+    return EXR_ERR_SUCCESS;
 }
 
 static exr_result_t write_picture(Writer *writer) {
-    int rows = 0, height = writer->picture->height;
+    const GiExrTarget *target = writer->target;
+    int height = writer->picture->height;
+    writer->slots = calloc(target->batch_size, sizeof *writer->slots);
+    if (writer->slots == NULL) return EXR_ERR_OUT_OF_MEMORY;
     TRY(write_header(writer));
-    TRY(exr_get_scanlines_per_chunk(writer->context, PART, &rows));
-    for (int y = 0; y < height; y += rows) {
-        TRY(write_chunk(writer, y));
-        double fraction = y + rows < height ? (double)(y + rows) / height : 1;
-        if (!writer->target->step(writer->target->user, fraction)) {
+    TRY(exr_get_scanlines_per_chunk(writer->context, PART, &writer->rows));
+    while (writer->first < height) {
+        size_t left = (size_t)((height - 1 - writer->first) / writer->rows + 1);
+        TRY(write_batch(writer, left < target->batch_size ? left : target->batch_size));
+        double fraction = writer->first < height ? (double)writer->first / height : 1;
+        if (!target->step(target->user, fraction)) {
             writer->stopped = true;
             return EXR_ERR_UNKNOWN;
         }
@@ -119,10 +157,18 @@ static exr_result_t write_picture(Writer *writer) {
     return EXR_ERR_SUCCESS;
 }
 
-static GiExrOutcome write(const GiExrPicture *picture, const GiExrTarget *target) {
+static void release(Writer *writer) {
+    for (size_t i = 0; writer->slots != NULL && i < writer->target->batch_size; i++) {
+        Slot *slot = &writer->slots[i];
+        if (slot->has_pipeline) exr_encoding_destroy(writer->context, &slot->pipeline);
+    }
+    free(writer->slots);
+}
+
+static GiExrOutcome write_exr(const GiExrPicture *picture, const GiExrTarget *target) {
     Writer writer = {.picture = picture, .target = target};
     exr_result_t result = write_picture(&writer);
-    if (writer.has_pipeline) exr_encoding_destroy(writer.context, &writer.pipeline);
+    release(&writer);
     /* The end of the file is written here, and may fail as well. */
     if (writer.context != NULL) {
         exr_result_t end = exr_finish(&writer.context);
@@ -131,12 +177,10 @@ static GiExrOutcome write(const GiExrPicture *picture, const GiExrTarget *target
     if (writer.stopped) return GI_EXR_STOPPED;
     if (result == EXR_ERR_SUCCESS) return GI_EXR_GOOD;
     if (result == EXR_ERR_OUT_OF_MEMORY) return GI_EXR_MEMORY;
-    if (target->message[0] == '\0') {
-        snprintf(target->message, target->message_size, "OpenEXR: %s",
-            exr_get_default_error_message(result));
-    }
+    snprintf(target->message, target->message_size, "OpenEXR: %s",
+        exr_get_default_error_message(result));
     return GI_EXR_FAILED;
 }
 
 GLINT_API extern const GiExrWriter glint_exr_writer;
-const GiExrWriter glint_exr_writer = {GI_EXR_WRITER_VERSION, write};
+const GiExrWriter glint_exr_writer = {GI_EXR_WRITER_VERSION, write_exr};

@@ -147,6 +147,28 @@ static void exr_round_trip(void) {
 #endif
 }
 
+static void exr_same_for_all_thread_counts(void) {
+    if (is_missing()) return;
+    char *path = path_in(make_folder("exr-threads"));
+    GlintImage image = make_image(100, 500, 6);
+    Bytes first = {0};
+    for (int threads = 1; threads <= 8; threads++) {
+        GlintSaveDesc desc = glint_save_desc_default();
+        GlintError error = {0};
+        desc.thread_count = threads;
+        CHECK_INT(glint_image_save(&image, path, &desc, &error), GLINT_OK);
+        Bytes bytes = read_whole(path);
+        if (threads == 1) {
+            first = bytes;
+        } else {
+            CHECK(bytes.size == first.size && memcmp(bytes.data, first.data, first.size) == 0);
+            free(bytes.data);
+        }
+    }
+    free(first.data);
+    free((void *)(uintptr_t)image.pixels);
+}
+
 /* ---------------------------------------------------------------- refusals and failures */
 
 static void layers_refused(void) {
@@ -278,5 +300,5 @@ static void exr_failures(void) {
     free((void *)(uintptr_t)image.pixels);
 }
 
-const GiTest tests_exr[] = {
-    TEST(exr_round_trip), TEST(layers_refused), TEST(picture_names), TEST(exr_failures), TEST_END};
+const GiTest tests_exr[] = {TEST(exr_round_trip), TEST(exr_same_for_all_thread_counts),
+    TEST(layers_refused), TEST(picture_names), TEST(exr_failures), TEST_END};

@@ -352,6 +352,83 @@ static void rectangle_solid_angle(void) {
     CHECK_NEAR(mean, 4 * asin(a * b / sqrt((a * a + d * d) * (b * b + d * d))), 1e-6);
 }
 
+/* The solid angle of a part of the rectangle: the rule of midpoints by area. */
+static double part_angle(const GiLightRectangle *r, GiVec from, double s, double t, double size) {
+    enum { FINE = 100 };
+    double sum = 0;
+    for (int i = 0; i < FINE * FINE; i++) {
+        GiVec point;
+        double u[2] = {
+            s + size * (i % FINE + 0.5) / FINE, t + size * ((double)(i / FINE) + 0.5) / FINE};
+        sum += gi_rectangle_sample(r, from, u, &point);
+    }
+    return sum * size * size / FINE / FINE;
+}
+
+/* Points by solid angle: as many in each of 8 x 8 parts as its solid angle says. */
+static void check_by_angle(const GiLightRectangle *r, GiVec from) {
+    enum { SIDE = 8, COUNT = 50000 };
+    int counts[SIDE * SIDE] = {0};
+    double factor = 0, sum = 0, whole = 0, width = gi_length(r->across);
+    double height = gi_length(r->upward);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        GiSampler numbers = gi_sampler_independent(i, 1, 2);
+        double u[2];
+        GiVec point;
+        gi_sample_2d(&numbers, 2, u);
+        factor = gi_rectangle_sample_angle(r, from, u, &point);
+        GiVec offset = gi_sub(point, r->center);
+        double s = gi_dot(offset, r->across) / (width * width) + 0.5;
+        double t = gi_dot(offset, r->upward) / (height * height) + 0.5;
+        CHECK_NEAR(gi_dot(offset, r->front), 0, 1e-14 * (gi_length(from) + width + height));
+        CHECK(s > -1e-12 && s < 1 + 1e-12 && t > -1e-12 && t < 1 + 1e-12);
+        int column = s > 0 ? (int)(s * SIDE) : 0, row = t > 0 ? (int)(t * SIDE) : 0;
+        counts[(row < SIDE ? row : SIDE - 1) * SIDE + (column < SIDE ? column : SIDE - 1)]++;
+        CHECK_NEAR(gi_rectangle_density_angle(r, from, point) * factor, 1, 1e-9);
+    }
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double s = i % SIDE / (double)SIDE, t = (double)(i / SIDE) / SIDE;
+        double angle = part_angle(r, from, s, t, 1.0 / SIDE), expected = angle / factor * COUNT;
+        whole += angle;
+        sum += (counts[i] - expected) * (counts[i] - expected) / (expected + 1e-3);
+    }
+    CHECK_NEAR(factor / whole, 1, 2e-3);
+    if (!(sum / 63 < 1 + 6 * sqrt(2.0 / 63))) {
+        test_fail(
+            __FILE__, __LINE__, "from %g %g %g: chi-square %g", from.x, from.y, from.z, sum / 63);
+    }
+}
+
+static void rectangle_by_solid_angle(void) {
+    static const GiVec places[] = {{0.5, 1, 0}, {3, -2, 1}, {0, 0, 4.9}, {1.9, 2.9, 4.5},
+        {-9, 0.1, 4.5}, {0.2, 30, -20}, {7, 7, 4.99}};
+    GiLightRectangle r;
+    CHECK(gi_rectangle_init(&r, gi_vec(0.5, 1, 5), gi_vec(0, 0, -1), gi_vec(1, 3, 0), 3, 4));
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        if (places[i].z < 4.8) check_by_angle(&r, places[i]);
+        GiVec point;
+        double u[2] = {0.25, 0.75};
+        CHECK(gi_rectangle_sample_angle(&r, places[i], u, &point) > 0);
+    }
+    GiVec point;
+    double edges[][2] = {{0, 0}, {1 - 0x1p-32, 1 - 0x1p-32}, {0, 1 - 0x1p-32}, {0.5, 0}};
+    for (int i = 0; i < 4; i++) {
+        /* Behind, in the plane, at the middle and at a corner of the rectangle, and far away. */
+        CHECK(gi_rectangle_sample_angle(&r, gi_vec(0, 0, 6), edges[i], &point) == 0);
+        CHECK(gi_rectangle_sample_angle(&r, gi_vec(9, 9, 5), edges[i], &point) == 0);
+        CHECK_NEAR(gi_rectangle_sample_angle(&r, gi_vec(0.5, 1, 5 - 1e-9), edges[i], &point),
+            2 * pi, 1e-6);
+        CHECK(isfinite(gi_length(point)));
+        GiVec corner = gi_along(gi_along(r.center, r.across, 0.5), r.upward, 0.5);
+        gi_rectangle_sample_angle(&r, gi_along(corner, r.front, 1e-9), edges[i], &point);
+        CHECK(isfinite(gi_length(point)));
+        GiVec far = gi_vec(100, 200, -3e4);
+        double by_area = gi_rectangle_sample(&r, far, edges[i], &point);
+        CHECK(gi_rectangle_sample_angle(&r, far, edges[i], &point) == by_area);
+    }
+}
+
 const GiTest tests_light[] = {TEST(environment_lookup), TEST(environment_density),
     TEST(environment_counts), TEST(environment_constant_and_black), TEST(environment_load),
-    TEST(environment_refused), TEST(rectangle_frame), TEST(rectangle_solid_angle), TEST_END};
+    TEST(environment_refused), TEST(rectangle_frame), TEST(rectangle_solid_angle),
+    TEST(rectangle_by_solid_angle), TEST_END};

@@ -4,7 +4,9 @@
 
 #include "base/error.h"
 #include "image/exr_writer.h"
+#include "port/machine.h"
 #include "port/module.h"
+#include "sched/pool.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -118,6 +120,7 @@ static int make_channels(const GlintImage *image, const GlintSaveDesc *desc, GiE
 typedef struct Run {
     GiFileWriter *file;
     const GlintMonitor *monitor;
+    GiPool *pool; /* null: only the caller's thread */
     bool cancelled;
 } Run;
 
@@ -137,15 +140,52 @@ static bool step(void *user, double fraction) {
     return !run->cancelled;
 }
 
-static GlintStatus run_module(
+typedef struct Jobs {
+    void (*job)(void *context, size_t index);
+    void *context;
+} Jobs;
+
+static void do_jobs(void *context, size_t begin, size_t end, int worker) {
+    const Jobs *jobs = context;
+    (void)worker;
+    for (size_t i = begin; i < end; i++) jobs->job(jobs->context, i);
+}
+
+static void run_jobs(
+    void *user, size_t count, void (*job)(void *context, size_t index), void *context) {
+    Run *run = user;
+    Jobs jobs = {job, context};
+    if (run->pool != NULL) {
+        gi_parallel_for(run->pool, count, 1, do_jobs, &jobs);
+    } else {
+        do_jobs(&jobs, 0, count, 0);
+    }
+}
+
+/* A thread has to earn its start, with two chunks of 16 rows. */
+static GlintStatus create_pool(GiMemory *memory, int thread_count, int height, GiPool **pool) {
+    int workers = thread_count > 0 ? thread_count : gi_machine_core_count();
+    if (workers > height / 32) workers = height / 32;
+    GlintStatus status = workers > 1 ? gi_pool_create(memory, workers, pool) : GLINT_OK;
+    if (status == GLINT_OK) return status;
+    *pool = NULL;
+    return status == GLINT_ERROR_MEMORY ? status : GLINT_OK; /* without threads it takes longer */
+}
+
+static GlintStatus run_module(const GiExrWriter *writer, GiMemory *memory,
     const GiExrPicture *picture, const GlintSaveDesc *desc, GiFileWriter *file, GlintError *error) {
-    GiModule module;
-    GlintStatus status = open_module(&module, error);
-    if (status != GLINT_OK) return status;
-    const GiExrWriter *writer = module.interface;
     char message[200] = "";
     Run run = {.file = file, .monitor = desc->monitor};
-    GiExrTarget target = {write_part, step, &run, message, sizeof message};
+    GlintStatus status = create_pool(memory, desc->thread_count, picture->height, &run.pool);
+    if (status != GLINT_OK) return gi_error_memory(error);
+    size_t workers = run.pool != NULL ? (size_t)gi_pool_worker_count(run.pool) : 1;
+    GiExrTarget target = {.write = write_part,
+        .step = step,
+        .run = run_jobs,
+        .batch_size = 2 * workers,
+        .user = &run,
+        .message = message,
+        .message_size = sizeof message};
     switch (writer->write(picture, &target)) {
     case GI_EXR_GOOD: break;
     case GI_EXR_MEMORY: status = gi_error_memory(error); break;
@@ -155,16 +195,18 @@ static GlintStatus run_module(
                                : gi_error_set(error, GLINT_ERROR_FILE, "the file refused");
         break;
     }
-    gi_module_close(&module);
+    gi_pool_destroy(run.pool);
     return status;
 }
 
 GlintStatus gi_exr_write(GiMemory *memory, const GlintImage *image, const GlintSaveDesc *desc,
     GiFileWriter *file, GlintError *error) {
+    GiModule module;
+    GlintStatus status = open_module(&module, error);
+    if (status != GLINT_OK) return status;
     size_t limit = 3 + COMPONENT_LIMIT * (size_t)desc->layer_count;
     GiExrChannel *channels = gi_memory_allocate(memory, limit * sizeof *channels);
     ChannelName *names = gi_memory_allocate(memory, limit * sizeof *names);
-    GlintStatus status;
     if (channels != NULL && names != NULL) {
         char software[64];
         snprintf(software, sizeof software, "Glint %s", glint_version_text());
@@ -174,11 +216,12 @@ GlintStatus gi_exr_write(GiMemory *memory, const GlintImage *image, const GlintS
             .channel_count = make_channels(image, desc, channels, names),
             .software = software,
             .title = desc->title};
-        status = run_module(&picture, desc, file, error);
+        status = run_module(module.interface, memory, &picture, desc, file, error);
     } else {
         status = gi_error_memory(error);
     }
     gi_memory_free(memory, channels, limit * sizeof *channels);
     gi_memory_free(memory, names, limit * sizeof *names);
+    gi_module_close(&module);
     return status;
 }

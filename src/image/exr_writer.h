@@ -26,6 +26,9 @@ typedef struct GiExrTarget {
     bool (*write)(void *user, const void *bytes, size_t size, uint64_t offset);
     /* Is called from time to time, fraction from 0 to 1. False to stop. */
     bool (*step)(void *user, double fraction);
+    /* Calls job(context, i) for all i below count, on several threads at once. */
+    void (*run)(void *user, size_t count, void (*job)(void *context, size_t index), void *context);
+    size_t batch_size; /* the largest count, at least 1 */
     void *user;
     char *message; /* for a sentence, when it fails on its own account */
     size_t message_size;

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * The frame, and points evenly by area. */
+ * The frame, points evenly by area, and points evenly by solid angle (Urena, Fajardo and King 2013,
+ * An Area-Preserving Parametrization for Spherical Rectangles). */
 #include "light/rectangle.h"
+
+#include "math/elementary.h"
 
 bool gi_rectangle_init(GiLightRectangle *rectangle, GiVec center, GiVec normal, GiVec up,
     double width, double height) {
@@ -31,4 +34,87 @@ double gi_rectangle_sample(
 double gi_rectangle_density(const GiLightRectangle *rectangle, GiVec offset) {
     double angle = solid_angle(rectangle, offset);
     return angle > 0 ? 1 / angle : 0;
+}
+
+/* ---------------------------------------------------------------- by solid angle */
+
+/* A smaller one is the difference of numbers too close to each other, and points by area are as
+ * good then. */
+static const double least_angle = 1e-5;
+static const double pi = 3.14159265358979323846;
+
+/* The rectangle x0 ... x1, y0 ... y1 at height z < 0 over the one who looks, and what its four
+ * sides look like: great circles, each with the z of its normal. */
+typedef struct View {
+    GiVec x, y; /* unit */
+    double x0, x1, y0, y1, z;
+    double below, right, above, left;
+    double angle; /* solid; 0: nothing is seen but the back */
+} View;
+
+/* The z of the normal of the circle through a side at distance `side`, not yet turned outward. */
+static double slope(double side, double z) { return side / sqrt(side * side + z * z); }
+
+static View view_from(const GiLightRectangle *rectangle, GiVec from) {
+    GiVec middle = gi_sub(rectangle->center, from);
+    double height = gi_dot(middle, rectangle->front);
+    double width = gi_length(rectangle->across), tallness = gi_length(rectangle->upward);
+    View view = {.x = gi_scale(rectangle->across, 1 / width),
+        .y = gi_scale(rectangle->upward, 1 / tallness),
+        .z = height};
+    if (!(height < 0)) return view;
+    double x = gi_dot(middle, view.x), y = gi_dot(middle, view.y);
+    view.x0 = x - width / 2;
+    view.x1 = x + width / 2;
+    view.y0 = y - tallness / 2;
+    view.y1 = y + tallness / 2;
+    view.below = -slope(view.y0, height);
+    view.right = slope(view.x1, height);
+    view.above = slope(view.y1, height);
+    view.left = -slope(view.x0, height);
+    /* The sum of the inner angles over that of a flat rectangle; acos(-a) = pi / 2 + asin(a). */
+    view.angle = gi_asin(view.below * view.right) + gi_asin(view.right * view.above) +
+                 gi_asin(view.above * view.left) + gi_asin(view.left * view.below);
+    return view;
+}
+
+/* NaN gives low. */
+static double clamp(double value, double low, double high) {
+    return value > low ? value < high ? value : high : low;
+}
+
+/* The x up to which the part of the rectangle has the share u of its solid angle. */
+static double choose_x(const View *view, double u) {
+    double sine, cosine;
+    double rest = pi - gi_asin(view->above * view->left) - gi_asin(view->left * view->below);
+    gi_sincos(u * view->angle + rest, &sine, &cosine);
+    double f = (cosine * view->below - view->above) / sine;
+    double c = 1 / sqrt(f * f + view->below * view->below);
+    c = clamp(f > 0 ? c : -c, -1, 1);
+    return clamp(-(c * view->z) / sqrt(1 - c * c), view->x0, view->x1);
+}
+
+/* Along the line at x, equal parts of the sine of the elevation have equal angles. */
+static double choose_y(const View *view, double x, double u) {
+    double square = x * x + view->z * view->z;
+    double h0 = view->y0 / sqrt(square + view->y0 * view->y0);
+    double h1 = view->y1 / sqrt(square + view->y1 * view->y1);
+    double h = h0 + u * (h1 - h0);
+    return clamp(h * sqrt(square) / sqrt(1 - h * h), view->y0, view->y1);
+}
+
+double gi_rectangle_sample_angle(
+    const GiLightRectangle *rectangle, GiVec from, const double u[2], GiVec *point) {
+    View view = view_from(rectangle, from);
+    if (!(view.angle > least_angle)) return gi_rectangle_sample(rectangle, from, u, point);
+    double x = choose_x(&view, u[0]), y = choose_y(&view, x, u[1]);
+    GiVec foot = gi_along(from, rectangle->front, view.z);
+    *point = gi_along(gi_along(foot, view.x, x), view.y, y);
+    return view.angle;
+}
+
+double gi_rectangle_density_angle(const GiLightRectangle *rectangle, GiVec from, GiVec point) {
+    View view = view_from(rectangle, from);
+    if (view.angle > least_angle) return 1 / view.angle;
+    return gi_rectangle_density(rectangle, gi_sub(point, from));
 }
