@@ -15,7 +15,7 @@
 
 /* clang-format off */
 #define ROOMS(X) \
-    X(base) X(math) X(mesh) X(sample) X(reader) X(malformed) X(hit) X(shape) X(kernel) X(image) \
+    X(base) X(math) X(mesh) X(sample) X(reader) X(elements) X(files) X(malformed) X(hit) X(shape) X(kernel) X(image) \
     X(file) X(light) X(texture) X(radiance) X(render) X(golden) X(api) X(load) X(life)
 /* clang-format on */
 
