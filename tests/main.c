@@ -15,7 +15,7 @@
 
 /* clang-format off */
 #define ROOMS(X) \
-    X(base) X(math) X(reader) X(malformed) X(hit) X(shape) X(kernel) X(image) X(file) \
+    X(base) X(math) X(reader) X(malformed) X(hit) X(shape) X(triangle) X(kernel) X(image) X(file) \
     X(radiance) X(render) X(golden) X(api) X(load) X(life)
 /* clang-format on */
 
