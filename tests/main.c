@@ -40,7 +40,8 @@
     X(life) \
     X(exr) \
     X(elements) \
-    X(files)
+    X(files) \
+    X(triangle)
 /* clang-format on */
 
 #define DECLARE(room) extern const GiTest tests_##room[];

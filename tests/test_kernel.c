@@ -3,6 +3,7 @@
  * random and on nasty rays, in scenes of all kinds and scales. */
 #include "test.h"
 
+#include "meshes.h"
 #include "random.h"
 #include "render/world.h"
 #include "shape/hit.h"
@@ -373,6 +374,176 @@ static void groups(void) {
     fixture_end(&fixture);
 }
 
+static void place_moved(Fixture *fixture, Random *random, GiShapeRef ref, GiVec at, double size) {
+    GiScene *scene = &fixture->scene;
+    GiShapeRef group;
+    CHECK(gi_scene_add_group(scene, &group));
+    uint32_t index = gi_shape_index(group);
+    GiVec scale = gi_vec(random_real(random, 0.5, 2), -1, random_real(random, 0.1, 1.5));
+    GiVec move = gi_add(at, random_vec(random, -size, size));
+    CHECK(gi_scene_add_step(scene, index, GI_STEP_TRANSLATE, move));
+    CHECK(gi_scene_add_step(scene, index, GI_STEP_ROTATE, random_vec(random, -180, 180)));
+    CHECK(gi_scene_add_step(scene, index, GI_STEP_SCALE, scale));
+    CHECK(gi_scene_place(scene, index, ref));
+    CHECK(gi_scene_place(scene, GI_SHAPE_NONE, group));
+}
+
+/* Meshes that stand as they are, among other shapes; the triangles of several in one tree. */
+static void meshes(void) {
+    static const GiVec places[] = {{0, 0, 0}, {1000, -2000, 3000}};
+    for (int i = 0; i < 2; i++) {
+        Fixture fixture;
+        fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+        Random random = {7};
+        GiScene *scene = &fixture.scene;
+        GiVec at = places[i];
+        const GiShapeRef refs[] = {mesh_sphere(scene, at, 3, 12, 0.1, true, true, &random),
+            mesh_sphere(scene, gi_add(at, gi_vec(1, 1, 0)), 2, 7, 0, false, false, &random),
+            mesh_soup(scene, at, 3, 400, &random)};
+        for (int k = 0; k < 3; k++) CHECK(gi_scene_place(scene, GI_SHAPE_NONE, refs[k]));
+        add_shapes(scene, &random, 100, at, 3, 10, GI_SHAPE_NONE);
+        fixture_commit(&fixture, gi_kernel_at(0));
+        CHECK(fixture.things.count > 1000);
+        compare_all(&fixture, at, 4, 1000, "meshes");
+        fixture_end(&fixture);
+    }
+}
+
+static void large_and_small_triangles(void) {
+    static const double sizes[] = {1e-30, 1e-5, 1e30};
+    for (int i = 0; i < 3; i++) {
+        Fixture fixture;
+        fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+        Random random = {8};
+        GiScene *scene = &fixture.scene;
+        double size = sizes[i];
+        GiShapeRef ref = mesh_sphere(scene, origin, size, 9, 0.1, false, true, &random);
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, ref));
+        ref = mesh_soup(scene, origin, size, 100, &random);
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, ref));
+        if (i == 1) { /* beside what is large, all of them are a point to the tree */
+            CHECK(gi_scene_add_sphere(scene, gi_vec(0, -1e9, 0), 1e9 - 1, 0, &ref));
+            CHECK(gi_scene_place(scene, GI_SHAPE_NONE, ref));
+        }
+        fixture_commit(&fixture, gi_kernel_at(0));
+        compare_all(&fixture, origin, size, 500, "large and small triangles");
+        fixture_end(&fixture);
+    }
+}
+
+/* Meshes and groups that are used again and again, here and there, one in the other. */
+static void instances(void) {
+    for (int year = 0; year < 2; year++) {
+        Fixture fixture;
+        fixture_begin(&fixture, year == 0 ? GLINT_DIALECT_GLINT : GLINT_DIALECT_2012);
+        Random random = {9};
+        GiScene *scene = &fixture.scene;
+        GiShapeRef mesh = mesh_sphere(scene, origin, 1, 6, 0.2, true, true, &random);
+        GiShapeRef once = mesh_soup(scene, origin, 1, 50, &random);
+        GiShapeRef group;
+        CHECK(gi_scene_add_group(scene, &group));
+        add_shapes(scene, &random, 30, origin, 1, 10, gi_shape_index(group));
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, mesh));
+        for (int i = 0; i < 8; i++) {
+            place_moved(&fixture, &random, mesh, origin, 3);
+            place_moved(&fixture, &random, group, origin, 3);
+        }
+        /* Exactly the same again: ties between instances. */
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, mesh));
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, group));
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, group));
+        place_moved(&fixture, &random, once, origin, 3);
+        add_shapes(scene, &random, 20, origin, 3, 10, GI_SHAPE_NONE);
+        fixture_commit(&fixture, gi_kernel_at(0));
+        CHECK_INT(fixture.world.spread.instances.count, 21);
+        CHECK_INT(fixture.world.inner_count, 3);
+        compare_all(&fixture, origin, 4, 1000, "instances");
+        fixture_end(&fixture);
+    }
+}
+
+/* A plane in a group that is used often: an instance without bounds. */
+static void unbounded_instances(void) {
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+    Random random = {10};
+    GiScene *scene = &fixture.scene;
+    GiShapeRef group, plane;
+    CHECK(gi_scene_add_group(scene, &group));
+    add_shapes(scene, &random, 30, origin, 1, 10, gi_shape_index(group));
+    CHECK(gi_scene_add_plane(scene, gi_vec(0, 0, -2), gi_vec(0.1, 0, 1), 0, &plane));
+    CHECK(gi_scene_place(scene, gi_shape_index(group), plane));
+    for (int i = 0; i < 3; i++) place_moved(&fixture, &random, group, origin, 3);
+    fixture_commit(&fixture, gi_kernel_at(0));
+    CHECK_INT(fixture.world.inner_count, 1);
+    CHECK_INT(fixture.world.store.tree.unbounded_count, 3);
+    compare_all(&fixture, origin, 4, 500, "unbounded instances");
+    fixture_end(&fixture);
+}
+
+/* Far from the world's origin, near to the eye, and the other way round. */
+static void instances_far_away(void) {
+    const GiVec at = {1e6, -2e6, 3e6};
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+    Random random = {11};
+    GiScene *scene = &fixture.scene;
+    GiShapeRef mesh = mesh_sphere(scene, origin, 1, 8, 0.2, true, true, &random);
+    for (int i = 0; i < 6; i++) place_moved(&fixture, &random, mesh, at, 3);
+    fixture_commit(&fixture, gi_kernel_at(0));
+    compare_all(&fixture, at, 4, 1000, "instances far away");
+    fixture_end(&fixture);
+}
+
+/* Rectangles in the place of what shines. */
+static void rectangles(void) {
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_2018B);
+    Random random = {12};
+    GiScene *scene = &fixture.scene;
+    for (int i = 0; i < 60; i++) {
+        GiLight light = gi_light_default();
+        light.type = GLINT_LIGHT_RECTANGLE;
+        light.position = random_vec(&random, -3, 3);
+        light.direction = i % 3 == 0 ? gi_vec(0, 0, -1) : random_vec(&random, -1, 1);
+        light.up = i % 3 == 0 ? gi_vec(0, 1, 0) : random_vec(&random, -1, 1);
+        light.width = random_real(&random, 0.1, 3);
+        light.height = random_real(&random, 0.1, 3);
+        CHECK(gi_array_push(scene->memory, &scene->lights, light));
+    }
+    add_shapes(scene, &random, 60, origin, 3, 10, GI_SHAPE_NONE);
+    fixture_commit(&fixture, gi_kernel_at(0));
+    CHECK_INT(fixture.things.count, 120);
+    compare_all(&fixture, origin, 4, 1000, "rectangles");
+    fixture_end(&fixture);
+}
+
+/* Groups of groups, each twice the one before: 2^24 times as many shapes, and a picture all the
+ * same. */
+static void doubled_groups(void) {
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+    Random random = {13};
+    GiScene *scene = &fixture.scene;
+    GiShapeRef inner;
+    CHECK(gi_scene_add_group(scene, &inner));
+    add_shapes(scene, &random, 20, origin, 1, 10, gi_shape_index(inner));
+    for (int level = 0; level < 24; level++) {
+        GiShapeRef outer;
+        CHECK(gi_scene_add_group(scene, &outer));
+        uint32_t index = gi_shape_index(outer);
+        CHECK(gi_scene_add_step(scene, index, GI_STEP_TRANSLATE, random_vec(&random, -1, 1)));
+        CHECK(gi_scene_place(scene, index, inner));
+        CHECK(gi_scene_place(scene, index, inner));
+        inner = outer;
+    }
+    CHECK(gi_scene_place(scene, GI_SHAPE_NONE, inner));
+    fixture_commit(&fixture, gi_kernel_at(0));
+    CHECK_INT(fixture.world.inner_count, 1);
+    CHECK(fixture.world.primitive_count < 200000);
+    fixture_end(&fixture);
+}
+
 /* All in one point, all alike: no split helps, and ties everywhere. */
 static void coincident(void) {
     Fixture fixture;
@@ -430,4 +601,6 @@ static void names(void) {
 
 const GiTest tests_kernel[] = {TEST(names), TEST(empty_scene), TEST(few_shapes), TEST(many_shapes),
     TEST(interior_rule), TEST(large_range), TEST(far_away), TEST(extreme_scales), TEST(one_outlier),
-    TEST(groups), TEST(coincident), TEST(deep_tree), TEST_END};
+    TEST(groups), TEST(meshes), TEST(large_and_small_triangles), TEST(instances),
+    TEST(unbounded_instances), TEST(instances_far_away), TEST(rectangles), TEST(doubled_groups),
+    TEST(coincident), TEST(deep_tree), TEST_END};
