@@ -82,8 +82,7 @@ static inline GiVec shine_of(const GiStage *stage, const GiShader *shader, GiVec
 }
 
 /* A visible rectangle light shines from its front and is black behind. */
-static GiVec rectangle_emission(
-    const GiStage *stage, const GiFlight *flight, const Met *met) {
+static GiVec rectangle_emission(const GiStage *stage, const GiFlight *flight, const Met *met) {
     const GiWorld *world = stage->world;
     uint32_t light_index = gi_shape_info(&world->shapes, met->shape, met->instance)->shader;
     const GiLightRectangle *rectangle = &world->lights.data[light_index];
@@ -336,8 +335,7 @@ void gi_surface_bundle(const GiStage *stage, const uint32_t *pixels) {
         }
         if (gi_shape_kind(shape) == GI_SHAPE_RECTANGLE) {
             Met met = met_of_bundle(bundle, i, pixels[i]);
-            scratch->color[pixels[i]] =
-                rectangle_emission(stage, NULL, &met);
+            scratch->color[pixels[i]] = rectangle_emission(stage, NULL, &met);
             continue;
         }
         uint32_t shader = gi_shape_info(&world->shapes, shape, bundle->instance[i])->shader;
