@@ -52,7 +52,8 @@ static GlintStatus load(Input *input, size_t chunk_size, GiMemory *memory, GiSce
         .total_size = -1,
         .diagnostic = on_diagnostic,
         .diagnostic_user = input,
-        .chunk_size = chunk_size};
+        .chunk_size = chunk_size,
+        .without_files = true};
     GlintError error = {.status = GLINT_OK};
     gi_memory_init(memory, NULL, (size_t)1 << 30);
     require(gi_scene_init(scene, memory), "no memory for a scene");

@@ -1,33 +1,19 @@
 /* SPDX-License-Identifier: MIT
- * The public functions of scenes: they check arguments and call a room. Pictures are in
- * image/image.c, dialects in scene/dialect.c, instruction sets in kernel/dispatch.c. */
+ * The public functions of scenes: they check arguments and call a room. Building by calls is in
+ * glint_build.c, pictures are in image/image.c, dialects in scene/dialect.c, instruction sets in
+ * kernel/dispatch.c. */
 #include "glint/glint.h"
 
 #include "base/assert.h"
 #include "base/cookie.h"
 #include "base/error.h"
 #include "port/file.h"
+#include "glint_scene.h"
 #include "port/machine.h"
 #include "reader/reader.h"
-#include "render/render.h"
-#include "sched/pool.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-struct GlintScene {
-    GiMemory memory;
-    GiScene model;
-    GiWorld world;
-    GiPool *pool; /* from commit on */
-    const GiKernel *kernel;
-    GlintDialect dialect; /* asked for */
-    int thread_count;
-    GlintDiagnosticFn diagnostic;
-    void *diagnostic_user;
-    bool committed, broken; /* broken: a load or commit failed */
-    GlintStats stats;
-};
 
 #define TEXT(x)  TEXT_(x)
 #define TEXT_(x) #x
@@ -51,7 +37,6 @@ GlintSceneDesc glint_scene_desc_default(void) {
     return (GlintSceneDesc){.dialect = GLINT_DIALECT_AUTO, .cookie = GI_COOKIE};
 }
 
-#define ARGUMENT(error, ...) gi_error_set((error), GLINT_ERROR_ARGUMENT, __VA_ARGS__)
 #define NO_DEFAULT(function) "the desc was not made by " function
 
 GlintStatus glint_scene_create(const GlintSceneDesc *desc, GlintScene **result, GlintError *error) {
@@ -99,7 +84,9 @@ void glint_scene_destroy(GlintScene *scene) {
 
 static bool is_empty(const GiScene *model) {
     return !model->has_camera && !model->has_image && model->shaders.count == 1 &&
-           model->lights.count == 0 && model->shape_count == 0 && model->groups.count == 0;
+           model->lights.count == 0 && model->shape_count == 0 && model->groups.count == 0 &&
+           model->meshes.meshes.count == 0 && model->textures.count == 0 &&
+           model->environment.face == 0;
 }
 
 static GlintStatus load(GlintScene *scene, GiReaderSource *source, GlintError *error) {
@@ -176,249 +163,6 @@ GlintStatus glint_scene_load_stream(GlintScene *scene, GlintReadFn read, void *u
     return load(scene, &source, error);
 }
 
-/* ---------------------------------------------------------------- build by calls */
-
-GlintImageDesc glint_image_desc_default(void) {
-    return (GlintImageDesc){
-        .width = 512, .height = 512, .samples = 1, .exposure = 1, .cookie = GI_COOKIE};
-}
-
-GlintCameraDesc glint_camera_desc_default(void) {
-    return (GlintCameraDesc){
-        .view_direction = {0, 0, -1},
-        .view_up = {0, 1, 0},
-        .projection_distance = 1,
-        .view_width = 1,
-        .view_height = 1,
-        .cookie = GI_COOKIE,
-    };
-}
-
-GlintShaderDesc glint_shader_desc_default(void) {
-    return (GlintShaderDesc){.diffuse_color = {1, 1, 1},
-        .specular_color = {1, 1, 1},
-        .exponent = 1,
-        .cookie = GI_COOKIE};
-}
-
-GlintLightDesc glint_light_desc_default(void) {
-    return (GlintLightDesc){.intensity = {1, 1, 1}, .cookie = GI_COOKIE};
-}
-
-GlintSurfaceDesc glint_surface_desc_default(GlintSurfaceType type) {
-    return (GlintSurfaceDesc){
-        .type = type,
-        .radius = 1,
-        .height = 1,
-        .normal = {0, 0, 1},
-        .transform = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}},
-        .cookie = GI_COOKIE,
-    };
-}
-
-static bool is_finite3(const double v[3]) {
-    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
-}
-
-static bool is_zero3(const double v[3]) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
-
-/* What every building call checks first. */
-static GlintStatus check_open(
-    const GlintScene *scene, const void *desc, int cookie, const char *made_by, GlintError *error) {
-    if (scene == NULL || desc == NULL) return ARGUMENT(error, "scene or desc is null");
-    if (cookie != GI_COOKIE) return ARGUMENT(error, "the desc was not made by %s", made_by);
-    if (scene->committed) return ARGUMENT(error, "the scene is committed already");
-    if (scene->broken) return ARGUMENT(error, "the scene failed to load");
-    return GLINT_OK;
-}
-
-#define CHECK_OPEN(scene, desc, made_by, error)                                                    \
-    do {                                                                                           \
-        GlintStatus status_ =                                                                      \
-            check_open(scene, desc, (desc) != NULL ? (desc)->cookie : 0, made_by, error);          \
-        if (status_ != GLINT_OK) return status_;                                                   \
-    } while (0)
-
-GlintStatus glint_scene_set_image(
-    GlintScene *scene, const GlintImageDesc *desc, GlintError *error) {
-    CHECK_OPEN(scene, desc, "glint_image_desc_default", error);
-    const char *fault = gi_scene_check_image_size(desc->width, desc->height);
-    if (fault != NULL) return ARGUMENT(error, "%s", fault);
-    if (desc->samples < 1 || desc->samples > GI_SAMPLES_LIMIT) {
-        return ARGUMENT(error, "samples must be from 1 to %d", GI_SAMPLES_LIMIT);
-    }
-    if (!is_finite3(desc->back_color)) return ARGUMENT(error, "back_color is not finite");
-    if (!isfinite(desc->exposure)) return ARGUMENT(error, "exposure is not finite");
-    GiScene *model = &scene->model;
-    model->has_image = true;
-    model->width = desc->width;
-    model->height = desc->height;
-    model->samples = desc->samples;
-    model->back_color = gi_vec_from(desc->back_color);
-    model->exposure = desc->exposure > 0 ? desc->exposure : 1;
-    return GLINT_OK;
-}
-
-static bool is_positive(double value) { return value > 0 && isfinite(value); }
-
-static const char *check_camera(const GlintCameraDesc *desc) {
-    if ((unsigned)desc->type > GLINT_CAMERA_PARALLEL) return "no such camera type";
-    if (!is_finite3(desc->view_point)) return "view_point is not finite";
-    if (!is_finite3(desc->view_direction)) return "view_direction is not finite";
-    if (is_zero3(desc->view_direction)) return "view_direction has no length";
-    if (!is_finite3(desc->view_up)) return "view_up is not finite";
-    if (is_zero3(desc->view_up)) return "view_up has no length";
-    if (!is_finite3(desc->projection_normal)) return "projection_normal is not finite";
-    if (!is_positive(desc->projection_distance)) {
-        return "projection_distance must be positive and finite";
-    }
-    if (!is_positive(desc->view_width)) return "view_width must be positive and finite";
-    if (!is_positive(desc->view_height)) return "view_height must be positive and finite";
-    return NULL;
-}
-
-GlintStatus glint_scene_set_camera(
-    GlintScene *scene, const GlintCameraDesc *desc, GlintError *error) {
-    CHECK_OPEN(scene, desc, "glint_camera_desc_default", error);
-    const char *fault = check_camera(desc);
-    if (fault != NULL) return ARGUMENT(error, "%s", fault);
-    GiCamera camera = {
-        .type = desc->type,
-        .view_point = gi_vec_from(desc->view_point),
-        .view_direction = gi_vec_from(desc->view_direction),
-        .view_up = gi_vec_from(desc->view_up),
-        .projection_normal = gi_vec_from(desc->projection_normal),
-        .projection_distance = desc->projection_distance,
-        .view_width = desc->view_width,
-        .view_height = desc->view_height,
-    };
-    /* What is left is a matter of two vectors; the model's check names them as files do. */
-    if (gi_scene_check_camera(&camera) != NULL) {
-        return ARGUMENT(error, "view_up is parallel to the projection normal");
-    }
-    scene->model.camera = camera;
-    scene->model.has_camera = true;
-    return GLINT_OK;
-}
-
-GlintStatus glint_scene_add_light(
-    GlintScene *scene, const GlintLightDesc *desc, GlintError *error) {
-    CHECK_OPEN(scene, desc, "glint_light_desc_default", error);
-    if ((unsigned)desc->type > GLINT_LIGHT_NORMAL) return ARGUMENT(error, "no such light type");
-    if ((unsigned)desc->falloff > GLINT_FALLOFF_INVERSE_SQUARE) {
-        return ARGUMENT(error, "no such falloff");
-    }
-    if (!is_finite3(desc->position)) return ARGUMENT(error, "position is not finite");
-    if (!is_finite3(desc->intensity)) return ARGUMENT(error, "intensity is not finite");
-    GiLight light = {
-        .type = desc->type,
-        .falloff = desc->falloff,
-        .position = gi_vec_from(desc->position),
-        .intensity = gi_vec_from(desc->intensity),
-    };
-    return gi_array_push(&scene->memory, &scene->model.lights, light) ? GLINT_OK
-                                                                      : gi_error_memory(error);
-}
-
-GlintStatus glint_scene_add_shader(
-    GlintScene *scene, const GlintShaderDesc *desc, GlintShaderId *id, GlintError *error) {
-    CHECK_OPEN(scene, desc, "glint_shader_desc_default", error);
-    if ((unsigned)desc->type > GLINT_SHADER_RGB_NORMALS) {
-        return ARGUMENT(error, "no such shader type");
-    }
-    if (!is_finite3(desc->diffuse_color)) return ARGUMENT(error, "diffuse_color is not finite");
-    if (!is_finite3(desc->specular_color)) return ARGUMENT(error, "specular_color is not finite");
-    if (!isfinite(desc->exponent)) return ARGUMENT(error, "exponent is not finite");
-    GiShader shader = {
-        .texture = GI_NONE,
-        .substrate = GI_NONE,
-        .type = desc->type,
-        .diffuse_given = true,
-        .diffuse = gi_vec_from(desc->diffuse_color),
-        .specular = gi_vec_from(desc->specular_color),
-        .exponent = desc->exponent,
-    };
-    uint32_t index = (uint32_t)scene->model.shaders.count;
-    if (!gi_array_push(&scene->memory, &scene->model.shaders, shader)) {
-        return gi_error_memory(error);
-    }
-    /* Index 0 is the default shader, so the index is the id. */
-    if (id != NULL) id->index1 = index;
-    return GLINT_OK;
-}
-
-static const char *check_surface(const GiScene *model, const GlintSurfaceDesc *desc) {
-    if ((unsigned)desc->type > GLINT_SURFACE_GROUP) return "no such surface type";
-    if (desc->shader.index1 >= model->shaders.count) return "no such shader";
-    if (desc->parent.index1 > 0 &&
-        (desc->parent.index1 >> 28 != GI_SHAPE_GROUP ||
-            (desc->parent.index1 & (GI_SHAPE_INDEX_LIMIT - 1)) >= model->groups.count)) {
-        return "parent is not a group of this scene";
-    }
-    if (!is_finite3(desc->center)) return "center is not finite";
-    if (!is_finite3(desc->point_a)) return "point_a is not finite";
-    if (!is_finite3(desc->point_b)) return "point_b is not finite";
-    if (!is_finite3(desc->normal)) return "normal is not finite";
-    if (is_zero3(desc->normal)) return "normal has no length";
-    if (!(desc->radius > 0 && isfinite(desc->radius))) return "radius must be positive and finite";
-    if (!(desc->height > 0 && isfinite(desc->height))) return "height must be positive and finite";
-    if (desc->type == GLINT_SURFACE_CONE) {
-        if (!isfinite(desc->tip_z)) return "tip_z is not finite";
-        return gi_scene_check_cone(desc->center[2], desc->tip_z);
-    }
-    return NULL;
-}
-
-static bool add_shape(GiScene *model, const GlintSurfaceDesc *desc, GiShapeRef *ref) {
-    GiVec center = gi_vec_from(desc->center), normal = gi_vec_from(desc->normal);
-    uint32_t shader = desc->shader.index1;
-    switch (desc->type) {
-    case GLINT_SURFACE_SPHERE: return gi_scene_add_sphere(model, center, desc->radius, shader, ref);
-    case GLINT_SURFACE_BOX:
-        return gi_scene_add_box(
-            model, gi_vec_from(desc->point_a), gi_vec_from(desc->point_b), shader, ref);
-    case GLINT_SURFACE_CYLINDER:
-        return gi_scene_add_cylinder(model, center, desc->radius, desc->height, shader, ref);
-    case GLINT_SURFACE_CONE:
-        return gi_scene_add_cone(
-            model, center, desc->radius, desc->height, desc->tip_z, shader, ref);
-    case GLINT_SURFACE_PLANE:
-        return gi_scene_add_plane(model, gi_vec_from(desc->point_a), normal, shader, ref);
-    case GLINT_SURFACE_DISC:
-        return gi_scene_add_disc(model, center, normal, desc->radius, shader, ref);
-    default: return false;
-    }
-}
-
-GlintStatus glint_scene_add_surface(
-    GlintScene *scene, const GlintSurfaceDesc *desc, GlintSurfaceId *id, GlintError *error) {
-    CHECK_OPEN(scene, desc, "glint_surface_desc_default", error);
-    GiScene *model = &scene->model;
-    const char *fault = check_surface(model, desc);
-    if (fault != NULL) return ARGUMENT(error, "%s", fault);
-    GiShapeRef ref;
-    uint32_t number = model->shape_count + 1;
-    if (desc->type == GLINT_SURFACE_GROUP) {
-        GiAffine matrix, inverse;
-        memcpy(matrix.m, desc->transform, sizeof matrix.m);
-        if (!gi_affine_invert(&matrix, &inverse)) {
-            return ARGUMENT(error, "transform is singular or not finite");
-        }
-        if (!gi_scene_add_group(model, &ref)) return gi_error_memory(error);
-        if (!gi_scene_add_matrix(model, gi_shape_index(ref), &matrix)) {
-            return gi_error_memory(error);
-        }
-        number = ref.bits;
-    } else if (!add_shape(model, desc, &ref)) {
-        return gi_error_memory(error);
-    }
-    uint32_t parent =
-        desc->parent.index1 == 0 ? GI_SHAPE_NONE : desc->parent.index1 & (GI_SHAPE_INDEX_LIMIT - 1);
-    if (!gi_scene_place(model, parent, ref)) return gi_error_memory(error);
-    if (id != NULL) id->index1 = number;
-    return GLINT_OK;
-}
-
 /* ---------------------------------------------------------------- commit, render, trace */
 
 GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, GlintError *error) {
@@ -443,16 +187,14 @@ GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, G
     if (status != GLINT_OK) return status;
     scene->committed = true;
     GlintStats *stats = &scene->stats;
-    const GiTree *tree = &scene->world.store.tree;
+    const GiWorld *world = &scene->world;
     stats->build_seconds = gi_machine_seconds() - start;
     stats->thread_count = gi_pool_worker_count(scene->pool);
-    stats->primitive_count = scene->world.primitive_count;
-    stats->node_count = tree->node_count;
-    stats->leaf_count = (uint64_t)tree->sphere_block_count + tree->box_block_count;
-    stats->tree_bytes = (uint64_t)tree->node_count * sizeof(GiNode) +
-                        (uint64_t)tree->sphere_block_count * sizeof(GiSphereBlock) +
-                        (uint64_t)tree->box_block_count * sizeof(GiBoxBlock);
-    stats->sah_cost = scene->world.store.sah_cost;
+    stats->primitive_count = world->primitive_count;
+    stats->node_count = world->node_count;
+    stats->leaf_count = world->leaf_count;
+    stats->tree_bytes = world->tree_bytes;
+    stats->sah_cost = world->store.sah_cost;
     return GLINT_OK;
 }
 

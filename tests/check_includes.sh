@@ -26,7 +26,9 @@ shade: scene shape light texture
 camera: scene
 reader: scene mesh shape light texture port
 render: sample light texture shade camera kernel accel image sched scene shape port
-glint.c: sample light texture mesh render reader scene image accel kernel shape shade camera sched port
+glint.c: sample light texture mesh render reader scene image accel kernel shape shade camera sched port glint_scene.h
+glint_build.c: sample light texture mesh render reader scene image accel kernel shape shade camera sched port glint_scene.h
+glint_scene.h: sample light texture mesh render reader scene image accel kernel shape shade camera sched port
 '
 
 found=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' src --include='*.[ch]')

@@ -38,7 +38,10 @@
     X(api) \
     X(load) \
     X(life) \
-    X(exr)
+    X(exr) \
+    X(elements) \
+    X(files) \
+    X(triangle)
 /* clang-format on */
 
 #define DECLARE(room) extern const GiTest tests_##room[];

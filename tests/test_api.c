@@ -46,9 +46,12 @@ static void defaults(void) {
     GlintLightDesc light = glint_light_desc_default();
     CHECK(light.type == GLINT_LIGHT_POINT && light.intensity[2] == 1);
     CHECK(light.falloff == GLINT_FALLOFF_DIALECT);
+    CHECK(light.direction[2] == -1 && light.up[1] == 1 && light.width == 1 && light.height == 1);
     GlintShaderDesc shader = glint_shader_desc_default();
     CHECK(shader.type == GLINT_SHADER_LAMBERTIAN && shader.specular_color[0] == 1);
-    CHECK(shader.exponent == 1);
+    CHECK(shader.exponent == 1 && shader.roughness == 0.5 && shader.refractive_index == 1.5);
+    CHECK(
+        shader.texture.index1 == 0 && shader.substrate.index1 == 0 && shader.mirror_color[0] == 0);
     GlintSurfaceDesc surface = glint_surface_desc_default(GLINT_SURFACE_CONE);
     CHECK(surface.type == GLINT_SURFACE_CONE && surface.radius == 1 && surface.height == 1);
     CHECK(surface.normal[2] == 1 && surface.transform[1][1] == 1 && surface.transform[1][0] == 0);
@@ -94,6 +97,10 @@ static void missing_defaults(void) {
     EXPECT_ARGUMENT(glint_scene_add_surface(scene, &(GlintSurfaceDesc){0}, NULL, &error),
         "surface_desc_default");
     EXPECT_ARGUMENT(
+        glint_scene_add_mesh(scene, &(GlintMeshDesc){0}, NULL, &error), "mesh_desc_default");
+    EXPECT_ARGUMENT(glint_scene_add_texture(scene, &(GlintTextureDesc){0}, NULL, &error),
+        "texture_desc_default");
+    EXPECT_ARGUMENT(
         glint_render(scene, &(GlintRenderDesc){0}, pixels, &error), "render_desc_default");
     EXPECT_ARGUMENT(
         glint_image_save(&picture, "a.png", &(GlintSaveDesc){0}, &error), "save_desc_default");
@@ -105,6 +112,11 @@ static void missing_defaults(void) {
     CHECK_INT(glint_scene_load_file(scene, NULL, NULL, NULL), GLINT_ERROR_ARGUMENT);
     CHECK_INT(glint_scene_load_memory(scene, NULL, 3, "x", NULL, NULL), GLINT_ERROR_ARGUMENT);
     CHECK_INT(glint_scene_load_stream(scene, NULL, NULL, "x", NULL, NULL), GLINT_ERROR_ARGUMENT);
+    CHECK_INT(glint_scene_load_mesh(NULL, "a.obj", NULL, NULL), GLINT_ERROR_ARGUMENT);
+    CHECK_INT(glint_scene_load_mesh(scene, NULL, NULL, NULL), GLINT_ERROR_ARGUMENT);
+    CHECK_INT(
+        glint_scene_load_texture(scene, NULL, GLINT_WRAP_CLAMP, NULL, NULL), GLINT_ERROR_ARGUMENT);
+    CHECK_INT(glint_scene_load_environment(scene, NULL, 1, NULL), GLINT_ERROR_ARGUMENT);
     CHECK_INT(glint_scene_commit(NULL, NULL, NULL), GLINT_ERROR_ARGUMENT);
     CHECK_INT(glint_render(scene, NULL, pixels, NULL), GLINT_ERROR_ARGUMENT);
     /* None of this has spoilt the scene. */
@@ -137,6 +149,32 @@ static void missing_defaults(void) {
     REFUSED(GlintSurfaceDesc, glint_surface_desc_default(GLINT_SURFACE_##type), member, value,     \
         glint_scene_add_surface(scene, &desc, NULL, &error), word)
 
+#define MESH(member, value, word)                                                                  \
+    REFUSED(GlintMeshDesc, triangle_desc(), member, value,                                         \
+        glint_scene_add_mesh(scene, &desc, NULL, &error), word)
+#define TEXTURE(member, value, word)                                                               \
+    REFUSED(GlintTextureDesc, dot_desc(), member, value,                                           \
+        glint_scene_add_texture(scene, &desc, NULL, &error), word)
+
+static GlintMeshDesc triangle_desc(void) {
+    static const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    static const uint32_t triangles[3] = {0, 1, 2};
+    GlintMeshDesc desc = glint_mesh_desc_default();
+    desc.positions = positions;
+    desc.vertex_count = 3;
+    desc.triangles = triangles;
+    desc.triangle_count = 1;
+    return desc;
+}
+
+static GlintTextureDesc dot_desc(void) {
+    static const uint8_t rgb[3] = {1, 2, 3};
+    GlintTextureDesc desc = glint_texture_desc_default();
+    desc.width = desc.height = 1;
+    desc.rgb = rgb;
+    return desc;
+}
+
 static void arguments(void) {
     GlintScene *scene = new_scene();
     IMAGE(width, 0, "width");
@@ -144,6 +182,8 @@ static void arguments(void) {
     IMAGE(samples, 0, "samples");
     IMAGE(back_color[1], NAN, "back_color");
     IMAGE(exposure, INFINITY, "exposure");
+    IMAGE(integrator, (GlintIntegrator)4, "integrator");
+    IMAGE(max_depth, 0, "max_depth");
     GlintImageDesc large = glint_image_desc_default();
     large.width = large.height = 1 << 15;
     CHECK_INT(glint_scene_set_image(scene, &large, NULL), GLINT_ERROR_ARGUMENT);
@@ -162,10 +202,36 @@ static void arguments(void) {
     LIGHT(position[0], NAN, "position");
     LIGHT(intensity[1], INFINITY, "intensity");
     LIGHT(falloff, (GlintFalloff)5, "falloff");
+    LIGHT(direction[2], 0, "direction");
+    LIGHT(direction[0], NAN, "direction");
+    LIGHT(up[1], 0, "up");
+    LIGHT(up[2], INFINITY, "up");
+    LIGHT(width, 0, "width");
+    LIGHT(height, -1, "height");
+    GlintLightDesc area = glint_light_desc_default();
+    area.type = GLINT_LIGHT_RECTANGLE;
+    area.up[1] = 0, area.up[2] = 3;
+    EXPECT_ARGUMENT(glint_scene_add_light(scene, &area, &error), "parallel");
     SHADER(type, (GlintShaderType)-1, "type");
     SHADER(diffuse_color[0], NAN, "diffuse_color");
     SHADER(specular_color[2], NAN, "specular_color");
     SHADER(exponent, INFINITY, "exponent");
+    SHADER(mirror_color[1], NAN, "mirror_color");
+    SHADER(roughness, 0, "roughness");
+    SHADER(refractive_index, -1, "refractive_index");
+    SHADER(substrate.index1, 1, "substrate");
+    SHADER(texture.index1, 1, "texture");
+    MESH(positions, NULL, "positions");
+    MESH(triangles, NULL, "triangles");
+    MESH(triangle_count, 0, "no triangles");
+    MESH(vertex_count, 2, "vertex");
+    TEXTURE(rgb, NULL, "rgb");
+    TEXTURE(width, 0, "width");
+    TEXTURE(height, -3, "height");
+    TEXTURE(wrap, (GlintWrap)2, "wrap");
+    TEXTURE(width, 1 << 29, "2^28");
+    EXPECT_ARGUMENT(glint_scene_load_environment(scene, "a.pfm", NAN, &error), "scale");
+    EXPECT_ARGUMENT(glint_scene_load_texture(scene, "a.png", (GlintWrap)7, NULL, &error), "wrap");
     SURFACE(SPHERE, type, (GlintSurfaceType)99, "type");
     SURFACE(SPHERE, radius, 0, "radius");
     SURFACE(SPHERE, center[1], NAN, "center");
@@ -180,6 +246,9 @@ static void arguments(void) {
     SURFACE(CONE, tip_z, NAN, "tip_z");
     SURFACE(PLANE, normal[2], 0, "normal");
     SURFACE(DISC, normal[0], NAN, "normal");
+    SURFACE(MESH, mesh.index1, 0, "mesh");
+    SURFACE(MESH, mesh.index1, 1, "mesh");
+    SURFACE(GROUP, source.index1, 1, "source");
     SURFACE(GROUP, transform[1][1], 0, "transform");
     SURFACE(GROUP, transform[0][3], INFINITY, "transform");
     EXPECT_ARGUMENT(glint_scene_commit(scene, NULL, &error), "image");
@@ -298,6 +367,126 @@ static void ids_and_groups(void) {
     glint_scene_destroy(scene);
 }
 
+static GlintSurfaceId add_group(
+    GlintScene *scene, GlintSurfaceId parent, GlintSurfaceId source, double x) {
+    GlintSurfaceDesc group = glint_surface_desc_default(GLINT_SURFACE_GROUP);
+    group.parent = parent;
+    group.source = source;
+    group.transform[0][3] = x;
+    GlintSurfaceId id = {0};
+    CHECK_INT(glint_scene_add_surface(scene, &group, &id, NULL), GLINT_OK);
+    return id;
+}
+
+static const GlintSurfaceId nowhere = {0};
+
+/* A row of pairs of spheres: one sphere, two groups of it, three of these. */
+static void groups_again(void) {
+    GlintScene *scene = new_scene();
+    GlintImageDesc image = glint_image_desc_default();
+    GlintCameraDesc camera = glint_camera_desc_default();
+    CHECK_INT(glint_scene_set_image(scene, &image, NULL), GLINT_OK);
+    CHECK_INT(glint_scene_set_camera(scene, &camera, NULL), GLINT_OK);
+    GlintSurfaceId pair = add_group(scene, nowhere, nowhere, 0);
+    GlintSurfaceId single = add_group(scene, pair, nowhere, 0);
+    GlintSurfaceId other = add_group(scene, pair, single, 3);
+    for (int i = 1; i < 3; i++) add_group(scene, nowhere, pair, 10.0 * i);
+    /* What is added later belongs to all. */
+    GlintSurfaceDesc sphere = glint_surface_desc_default(GLINT_SURFACE_SPHERE);
+    sphere.parent = single;
+    CHECK_INT(glint_scene_add_surface(scene, &sphere, NULL, NULL), GLINT_OK);
+    GlintSurfaceDesc cycle = glint_surface_desc_default(GLINT_SURFACE_GROUP);
+    cycle.source = pair;
+    cycle.parent = pair;
+    EXPECT_ARGUMENT(glint_scene_add_surface(scene, &cycle, NULL, &error), "contain itself");
+    cycle.parent = other;
+    EXPECT_ARGUMENT(glint_scene_add_surface(scene, &cycle, NULL, &error), "contain itself");
+    cycle.parent = single;
+    EXPECT_ARGUMENT(glint_scene_add_surface(scene, &cycle, NULL, &error), "contain itself");
+    CHECK_INT(glint_scene_commit(scene, NULL, NULL), GLINT_OK);
+    GlintSceneInfo info;
+    glint_scene_info(scene, &info);
+    CHECK_INT(info.surface_count, 6);
+    for (int i = 0; i < 6; i++) {
+        GlintRay ray = {{10 * (i / 2) + 3 * (i % 2), 0, 9}, {0, 0, -1}, 0, INFINITY};
+        GlintHit hit = {0};
+        CHECK(glint_trace(scene, &ray, &hit) && hit.surface.index1 == 1);
+        CHECK_NEAR(hit.t, 8, 1e-14);
+    }
+    glint_scene_destroy(scene);
+}
+
+/* Each thing that can be added, and what stands on it. */
+static void everything_by_calls(void) {
+    GlintScene *scene = new_scene();
+    GlintTextureDesc dot = dot_desc();
+    GlintTextureId texture = {0};
+    CHECK_INT(glint_scene_add_texture(scene, &dot, &texture, NULL), GLINT_OK);
+    GlintShaderId below = {0};
+    for (int type = 0; type <= GLINT_SHADER_COOK_TORRANCE; type++) {
+        GlintShaderDesc shader = glint_shader_desc_default();
+        shader.type = (GlintShaderType)type;
+        shader.texture = texture;
+        shader.substrate = below;
+        CHECK_INT(glint_scene_add_shader(scene, &shader, &below, NULL), GLINT_OK);
+    }
+    GlintShaderDesc glaze = glint_shader_desc_default();
+    glaze.type = GLINT_SHADER_GLAZED;
+    for (int i = 0; i < 8; i++) {
+        glaze.substrate = below;
+        CHECK_INT(glint_scene_add_shader(scene, &glaze, &below, NULL), GLINT_OK);
+    }
+    glaze.substrate = below;
+    EXPECT_ARGUMENT(glint_scene_add_shader(scene, &glaze, NULL, &error), "8 deep");
+    for (int type = 0; type <= GLINT_LIGHT_RECTANGLE; type++) {
+        GlintLightDesc light = glint_light_desc_default();
+        light.type = (GlintLightType)type;
+        CHECK_INT(glint_scene_add_light(scene, &light, NULL), GLINT_OK);
+    }
+    GlintMeshDesc triangle = triangle_desc();
+    GlintMeshId mesh = {0};
+    CHECK_INT(glint_scene_add_mesh(scene, &triangle, &mesh, NULL), GLINT_OK);
+    GlintSurfaceDesc surface = glint_surface_desc_default(GLINT_SURFACE_MESH);
+    surface.mesh = mesh;
+    GlintSurfaceId id = {0};
+    for (uint32_t i = 1; i <= 2; i++) {
+        CHECK_INT(glint_scene_add_surface(scene, &surface, &id, NULL), GLINT_OK);
+        CHECK_INT(id.index1, i);
+    }
+    CHECK_INT(load_text(scene, small_scene, NULL), GLINT_ERROR_ARGUMENT); /* not empty */
+    glint_scene_destroy(scene);
+}
+
+static void write_text(char path[500], const char *name, const char *text) {
+    snprintf(path, 500, "%s/%s", test_scratch_dir(), name);
+    FILE *file = fopen(path, "wb");
+    CHECK(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0);
+}
+
+static void files_by_calls(void) {
+    GlintScene *scene = new_scene();
+    GlintError error = {0};
+    GlintMeshId mesh = {0};
+    char path[500];
+    write_text(path, "api.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    CHECK_INT(glint_scene_load_mesh(scene, path, &mesh, &error), GLINT_OK);
+    CHECK_INT(mesh.index1, 1);
+    write_text(path, "broken.obj", "v 0 0 0\nf 1 2 3\n");
+    CHECK_INT(glint_scene_load_mesh(scene, path, &mesh, &error), GLINT_ERROR_SCENE);
+    CHECK_TEXT(error.path, path);
+    CHECK_INT(error.line, 2);
+    CHECK_INT(
+        glint_scene_load_texture(scene, path, GLINT_WRAP_CLAMP, NULL, &error), GLINT_ERROR_FILE);
+    CHECK_INT(glint_scene_load_environment(scene, path, 1, &error), GLINT_ERROR_FILE);
+    CHECK_INT(glint_scene_load_mesh(scene, "/nowhere/a.obj", NULL, &error), GLINT_ERROR_FILE);
+    CHECK_TEXT(error.path, "/nowhere/a.obj");
+    /* None of this has spoilt the scene. */
+    GlintSurfaceDesc surface = glint_surface_desc_default(GLINT_SURFACE_MESH);
+    surface.mesh.index1 = 1;
+    CHECK_INT(glint_scene_add_surface(scene, &surface, NULL, NULL), GLINT_OK);
+    glint_scene_destroy(scene);
+}
+
 /* Of two calls nothing of the first remains; an exposure that is not positive counts as 1. */
 static void last_image_counts(void) {
     GlintScene *scene = new_scene();
@@ -381,5 +570,6 @@ static void example_as_cpp(void) {
 }
 
 const GiTest tests_api[] = {TEST(names), TEST(defaults), TEST(missing_defaults), TEST(arguments),
-    TEST(crops_out_of_range), TEST(ids_and_groups), TEST(last_image_counts),
-    TEST(trace_agrees_with_picture), TEST(example), TEST(example_as_cpp), TEST_END};
+    TEST(crops_out_of_range), TEST(ids_and_groups), TEST(groups_again), TEST(everything_by_calls),
+    TEST(files_by_calls), TEST(last_image_counts), TEST(trace_agrees_with_picture), TEST(example),
+    TEST(example_as_cpp), TEST_END};

@@ -3,6 +3,7 @@
  * random and on nasty rays, in scenes of all kinds and scales. */
 #include "test.h"
 
+#include "meshes.h"
 #include "random.h"
 #include "render/world.h"
 #include "shape/hit.h"
@@ -12,13 +13,17 @@
 
 /* ---------------------------------------------------------------- scenes */
 
+typedef struct Thing {
+    GiShapeRef ref;
+    uint32_t instance;
+} Thing;
+
 typedef struct Fixture {
     GiMemory memory;
     GiScene scene;
     GiWorld world;
     GiPool *pool;
-    GiShapeRef *refs; /* a copy of what was placed, for brute force */
-    size_t count;
+    GI_ARRAY(Thing) things; /* all that stands in the trees, for brute force */
 } Fixture;
 
 /* A scene of `count` shapes in a cube of the given size at `at`; sizes spread over `range`. */
@@ -60,6 +65,53 @@ static void add_shapes(GiScene *scene, Random *random, int count, GiVec at, doub
     }
 }
 
+static void collect(Fixture *fixture, const GiTree *tree, uint32_t instance);
+
+static void add_thing(Fixture *fixture, GiShapeRef ref, uint32_t instance) {
+    if (ref.bits == GI_SHAPE_NONE) return;
+    if (gi_shape_kind(ref) == GI_SHAPE_INSTANCE) {
+        uint32_t index = gi_shape_index(ref);
+        CHECK(instance == GI_SHAPE_NONE);
+        collect(fixture, fixture->world.shapes.instances[index].tree, index);
+        return;
+    }
+    CHECK(gi_array_push(&fixture->memory, &fixture->things, (Thing){ref, instance}));
+}
+
+static void add_child(Fixture *fixture, const GiTree *tree, uint32_t child, uint32_t instance) {
+    if (child == GI_CHILD_NONE) return;
+    uint32_t index = gi_child_index(child);
+    switch (gi_child_kind(child)) {
+    case GI_CHILD_NODE: break;
+    case GI_CHILD_TRIANGLES:
+        for (uint32_t i = 0; i < gi_child_count(child); i++) {
+            add_thing(
+                fixture, gi_shape_ref(GI_SHAPE_TRIANGLE, gi_child_first(child) + i), instance);
+        }
+        break;
+    case GI_CHILD_BOXES:
+        for (int i = 0; i < 8; i++) {
+            add_thing(fixture, tree->box_blocks[index].shape[i], instance);
+        }
+        break;
+    case GI_CHILD_SPHERES:
+        for (int i = 0; i < 8; i++) {
+            add_thing(fixture, tree->sphere_blocks[index].shape[i], instance);
+        }
+    }
+}
+
+/* The order does not matter: ties go by document order. */
+static void collect(Fixture *fixture, const GiTree *tree, uint32_t instance) {
+    for (uint32_t i = 0; i < tree->unbounded_count; i++) {
+        add_thing(fixture, tree->unbounded[i], instance);
+    }
+    add_child(fixture, tree, tree->root, instance);
+    for (uint32_t i = 0; i < tree->node_count; i++) {
+        for (int k = 0; k < 8; k++) add_child(fixture, tree, tree->nodes[i].child[k], instance);
+    }
+}
+
 static void fixture_commit(Fixture *fixture, const GiKernel *kernel) {
     GiScene *scene = &fixture->scene;
     scene->has_camera = scene->has_image = true;
@@ -68,27 +120,7 @@ static void fixture_commit(Fixture *fixture, const GiKernel *kernel) {
     CHECK_INT(gi_pool_create(&fixture->memory, 2, &fixture->pool), GLINT_OK);
     CHECK_INT(
         gi_world_commit(&fixture->world, scene, kernel, fixture->pool, NULL, &error), GLINT_OK);
-    /* The order of brute force does not matter: ties go by document order. */
-    const GiTree *tree = &fixture->world.store.tree;
-    size_t capacity = fixture->world.primitive_count + 8;
-    fixture->refs = gi_memory_allocate(&fixture->memory, capacity * sizeof *fixture->refs);
-    fixture->count = 0;
-    for (uint32_t i = 0; i < tree->unbounded_count; i++) {
-        fixture->refs[fixture->count++] = tree->unbounded[i];
-    }
-    for (uint32_t i = 0; i < tree->sphere_block_count; i++) {
-        for (int lane = 0; lane < 8; lane++) {
-            GiShapeRef ref = tree->sphere_blocks[i].shape[lane];
-            if (ref.bits != GI_SHAPE_NONE) fixture->refs[fixture->count++] = ref;
-        }
-    }
-    for (uint32_t i = 0; i < tree->box_block_count; i++) {
-        for (int lane = 0; lane < 8; lane++) {
-            GiShapeRef ref = tree->box_blocks[i].shape[lane];
-            if (ref.bits != GI_SHAPE_NONE) fixture->refs[fixture->count++] = ref;
-        }
-    }
-    CHECK_INT(fixture->count, fixture->world.primitive_count);
+    collect(fixture, &fixture->world.store.tree, GI_SHAPE_NONE);
 }
 
 static void fixture_begin(Fixture *fixture, GlintDialect dialect) {
@@ -99,8 +131,7 @@ static void fixture_begin(Fixture *fixture, GlintDialect dialect) {
 }
 
 static void fixture_end(Fixture *fixture) {
-    size_t capacity = fixture->world.primitive_count + 8;
-    gi_memory_free(&fixture->memory, fixture->refs, capacity * sizeof *fixture->refs);
+    gi_array_free(&fixture->memory, &fixture->things);
     gi_world_reset(&fixture->world, &fixture->memory);
     gi_pool_destroy(fixture->pool);
     gi_scene_reset(&fixture->scene);
@@ -112,14 +143,19 @@ static bool brute_force(const Fixture *fixture, const GiTraceRay *r, GiTraceHit 
     gi_hit_Ray ray = gi_hit_ray(
         r->origin.x, r->origin.y, r->origin.z, r->direction.x, r->direction.y, r->direction.z);
     *hit = (GiTraceHit){INFINITY, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
-    for (size_t i = 0; i < fixture->count; i++) {
+    for (size_t i = 0; i < fixture->things.count; i++) {
+        Thing thing = fixture->things.data[i];
+        if (thing.ref.bits == r->skip && thing.instance == r->skip_instance) continue;
+        gi_hit_Ray inner = ray;
+        if (thing.instance != GI_SHAPE_NONE) {
+            uint32_t transform = shapes->instances[thing.instance].transform;
+            inner = gi_hit_to_object(&ray, &shapes->transforms[transform].to_object);
+        }
         double t;
-        GiShapeRef ref = fixture->refs[i];
-        if (ref.bits == r->skip || !gi_hit_shape(shapes, ref, &ray, r->t_min, r->t_max, &t))
-            continue;
-        if (t < hit->t || (t == hit->t && gi_shape_before(shapes, ref, GI_SHAPE_NONE, hit->shape,
-                                              hit->instance))) {
-            *hit = (GiTraceHit){t, ref, GI_SHAPE_NONE};
+        if (!gi_hit_shape(shapes, thing.ref, &inner, r->t_min, r->t_max, &t)) continue;
+        if (t < hit->t || (t == hit->t && gi_shape_before(shapes, thing.ref, thing.instance,
+                                              hit->shape, hit->instance))) {
+            *hit = (GiTraceHit){t, thing.ref, thing.instance};
         }
     }
     return hit->shape.bits != GI_SHAPE_NONE;
@@ -171,7 +207,8 @@ static void compare_single(
     bool hits = brute_force(fixture, ray, &expected);
     bool found_any = kernel->closest(&fixture->world.trace, ray, &found);
     if (found_any != hits || (hits && (memcmp(&found.t, &expected.t, sizeof found.t) != 0 ||
-                                          found.shape.bits != expected.shape.bits))) {
+                                          found.shape.bits != expected.shape.bits ||
+                                          found.instance != expected.instance))) {
         if (wrong++ < 3) {
             test_fail(__FILE__, __LINE__,
                 "%s, %s: ray (%g %g %g) + t (%g %g %g): shape %x at %.17g, not %x at %.17g", what,
@@ -206,8 +243,12 @@ static void compare_bundle(const Fixture *fixture, const GiKernel *kernel, Rando
         bundle.dx[i] = d.x, bundle.dy[i] = d.y, bundle.dz[i] = d.z;
         bundle.t_min[i] = any ? 1e-9 : 0;
         bundle.t_max[i] = any ? 1 : INFINITY;
-        bundle.skip[i] = any && i % 7 == 0 ? fixture->refs[i % fixture->count].bits : GI_SHAPE_NONE;
-        bundle.skip_instance[i] = GI_SHAPE_NONE;
+        Thing skip = {{GI_SHAPE_NONE}, GI_SHAPE_NONE};
+        if (any && i % 7 == 0) {
+            skip = fixture->things.data[(size_t)i * 37 % fixture->things.count];
+        }
+        bundle.skip[i] = skip.ref.bits;
+        bundle.skip_instance[i] = skip.instance;
     }
     if (any) {
         kernel->bundle_any(&fixture->world.trace, &bundle);
@@ -224,7 +265,8 @@ static void compare_bundle(const Fixture *fixture, const GiKernel *kernel, Rando
         bool same = found == hits;
         if (same && hits && !any) {
             same = memcmp(&bundle.t[i], &expected.t, sizeof expected.t) == 0 &&
-                   bundle.shape[i] == expected.shape.bits;
+                   bundle.shape[i] == expected.shape.bits &&
+                   bundle.instance[i] == expected.instance;
         }
         if (!same && wrong++ < 3) {
             test_fail(__FILE__, __LINE__, "%s, %s, bundle %s: ray %d of %d: shape %x, not %x", what,
@@ -332,6 +374,176 @@ static void groups(void) {
     fixture_end(&fixture);
 }
 
+static void place_moved(Fixture *fixture, Random *random, GiShapeRef ref, GiVec at, double size) {
+    GiScene *scene = &fixture->scene;
+    GiShapeRef group;
+    CHECK(gi_scene_add_group(scene, &group));
+    uint32_t index = gi_shape_index(group);
+    GiVec scale = gi_vec(random_real(random, 0.5, 2), -1, random_real(random, 0.1, 1.5));
+    GiVec move = gi_add(at, random_vec(random, -size, size));
+    CHECK(gi_scene_add_step(scene, index, GI_STEP_TRANSLATE, move));
+    CHECK(gi_scene_add_step(scene, index, GI_STEP_ROTATE, random_vec(random, -180, 180)));
+    CHECK(gi_scene_add_step(scene, index, GI_STEP_SCALE, scale));
+    CHECK(gi_scene_place(scene, index, ref));
+    CHECK(gi_scene_place(scene, GI_SHAPE_NONE, group));
+}
+
+/* Meshes that stand as they are, among other shapes; the triangles of several in one tree. */
+static void meshes(void) {
+    static const GiVec places[] = {{0, 0, 0}, {1000, -2000, 3000}};
+    for (int i = 0; i < 2; i++) {
+        Fixture fixture;
+        fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+        Random random = {7};
+        GiScene *scene = &fixture.scene;
+        GiVec at = places[i];
+        const GiShapeRef refs[] = {mesh_sphere(scene, at, 3, 12, 0.1, true, true, &random),
+            mesh_sphere(scene, gi_add(at, gi_vec(1, 1, 0)), 2, 7, 0, false, false, &random),
+            mesh_soup(scene, at, 3, 400, &random)};
+        for (int k = 0; k < 3; k++) CHECK(gi_scene_place(scene, GI_SHAPE_NONE, refs[k]));
+        add_shapes(scene, &random, 100, at, 3, 10, GI_SHAPE_NONE);
+        fixture_commit(&fixture, gi_kernel_at(0));
+        CHECK(fixture.things.count > 1000);
+        compare_all(&fixture, at, 4, 1000, "meshes");
+        fixture_end(&fixture);
+    }
+}
+
+static void large_and_small_triangles(void) {
+    static const double sizes[] = {1e-30, 1e-5, 1e30};
+    for (int i = 0; i < 3; i++) {
+        Fixture fixture;
+        fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+        Random random = {8};
+        GiScene *scene = &fixture.scene;
+        double size = sizes[i];
+        GiShapeRef ref = mesh_sphere(scene, origin, size, 9, 0.1, false, true, &random);
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, ref));
+        ref = mesh_soup(scene, origin, size, 100, &random);
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, ref));
+        if (i == 1) { /* beside what is large, all of them are a point to the tree */
+            CHECK(gi_scene_add_sphere(scene, gi_vec(0, -1e9, 0), 1e9 - 1, 0, &ref));
+            CHECK(gi_scene_place(scene, GI_SHAPE_NONE, ref));
+        }
+        fixture_commit(&fixture, gi_kernel_at(0));
+        compare_all(&fixture, origin, size, 500, "large and small triangles");
+        fixture_end(&fixture);
+    }
+}
+
+/* Meshes and groups that are used again and again, here and there, one in the other. */
+static void instances(void) {
+    for (int year = 0; year < 2; year++) {
+        Fixture fixture;
+        fixture_begin(&fixture, year == 0 ? GLINT_DIALECT_GLINT : GLINT_DIALECT_2012);
+        Random random = {9};
+        GiScene *scene = &fixture.scene;
+        GiShapeRef mesh = mesh_sphere(scene, origin, 1, 6, 0.2, true, true, &random);
+        GiShapeRef once = mesh_soup(scene, origin, 1, 50, &random);
+        GiShapeRef group;
+        CHECK(gi_scene_add_group(scene, &group));
+        add_shapes(scene, &random, 30, origin, 1, 10, gi_shape_index(group));
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, mesh));
+        for (int i = 0; i < 8; i++) {
+            place_moved(&fixture, &random, mesh, origin, 3);
+            place_moved(&fixture, &random, group, origin, 3);
+        }
+        /* Exactly the same again: ties between instances. */
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, mesh));
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, group));
+        CHECK(gi_scene_place(scene, GI_SHAPE_NONE, group));
+        place_moved(&fixture, &random, once, origin, 3);
+        add_shapes(scene, &random, 20, origin, 3, 10, GI_SHAPE_NONE);
+        fixture_commit(&fixture, gi_kernel_at(0));
+        CHECK_INT(fixture.world.spread.instances.count, 21);
+        CHECK_INT(fixture.world.inner_count, 3);
+        compare_all(&fixture, origin, 4, 1000, "instances");
+        fixture_end(&fixture);
+    }
+}
+
+/* A plane in a group that is used often: an instance without bounds. */
+static void unbounded_instances(void) {
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+    Random random = {10};
+    GiScene *scene = &fixture.scene;
+    GiShapeRef group, plane;
+    CHECK(gi_scene_add_group(scene, &group));
+    add_shapes(scene, &random, 30, origin, 1, 10, gi_shape_index(group));
+    CHECK(gi_scene_add_plane(scene, gi_vec(0, 0, -2), gi_vec(0.1, 0, 1), 0, &plane));
+    CHECK(gi_scene_place(scene, gi_shape_index(group), plane));
+    for (int i = 0; i < 3; i++) place_moved(&fixture, &random, group, origin, 3);
+    fixture_commit(&fixture, gi_kernel_at(0));
+    CHECK_INT(fixture.world.inner_count, 1);
+    CHECK_INT(fixture.world.store.tree.unbounded_count, 3);
+    compare_all(&fixture, origin, 4, 500, "unbounded instances");
+    fixture_end(&fixture);
+}
+
+/* Far from the world's origin, near to the eye, and the other way round. */
+static void instances_far_away(void) {
+    const GiVec at = {1e6, -2e6, 3e6};
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+    Random random = {11};
+    GiScene *scene = &fixture.scene;
+    GiShapeRef mesh = mesh_sphere(scene, origin, 1, 8, 0.2, true, true, &random);
+    for (int i = 0; i < 6; i++) place_moved(&fixture, &random, mesh, at, 3);
+    fixture_commit(&fixture, gi_kernel_at(0));
+    compare_all(&fixture, at, 4, 1000, "instances far away");
+    fixture_end(&fixture);
+}
+
+/* Rectangles in the place of what shines. */
+static void rectangles(void) {
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_2018B);
+    Random random = {12};
+    GiScene *scene = &fixture.scene;
+    for (int i = 0; i < 60; i++) {
+        GiLight light = gi_light_default();
+        light.type = GLINT_LIGHT_RECTANGLE;
+        light.position = random_vec(&random, -3, 3);
+        light.direction = i % 3 == 0 ? gi_vec(0, 0, -1) : random_vec(&random, -1, 1);
+        light.up = i % 3 == 0 ? gi_vec(0, 1, 0) : random_vec(&random, -1, 1);
+        light.width = random_real(&random, 0.1, 3);
+        light.height = random_real(&random, 0.1, 3);
+        CHECK(gi_array_push(scene->memory, &scene->lights, light));
+    }
+    add_shapes(scene, &random, 60, origin, 3, 10, GI_SHAPE_NONE);
+    fixture_commit(&fixture, gi_kernel_at(0));
+    CHECK_INT(fixture.things.count, 120);
+    compare_all(&fixture, origin, 4, 1000, "rectangles");
+    fixture_end(&fixture);
+}
+
+/* Groups of groups, each twice the one before: 2^24 times as many shapes, and a picture all the
+ * same. */
+static void doubled_groups(void) {
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+    Random random = {13};
+    GiScene *scene = &fixture.scene;
+    GiShapeRef inner;
+    CHECK(gi_scene_add_group(scene, &inner));
+    add_shapes(scene, &random, 20, origin, 1, 10, gi_shape_index(inner));
+    for (int level = 0; level < 24; level++) {
+        GiShapeRef outer;
+        CHECK(gi_scene_add_group(scene, &outer));
+        uint32_t index = gi_shape_index(outer);
+        CHECK(gi_scene_add_step(scene, index, GI_STEP_TRANSLATE, random_vec(&random, -1, 1)));
+        CHECK(gi_scene_place(scene, index, inner));
+        CHECK(gi_scene_place(scene, index, inner));
+        inner = outer;
+    }
+    CHECK(gi_scene_place(scene, GI_SHAPE_NONE, inner));
+    fixture_commit(&fixture, gi_kernel_at(0));
+    CHECK_INT(fixture.world.inner_count, 1);
+    CHECK(fixture.world.primitive_count < 200000);
+    fixture_end(&fixture);
+}
+
 /* All in one point, all alike: no split helps, and ties everywhere. */
 static void coincident(void) {
     Fixture fixture;
@@ -389,4 +601,6 @@ static void names(void) {
 
 const GiTest tests_kernel[] = {TEST(names), TEST(empty_scene), TEST(few_shapes), TEST(many_shapes),
     TEST(interior_rule), TEST(large_range), TEST(far_away), TEST(extreme_scales), TEST(one_outlier),
-    TEST(groups), TEST(coincident), TEST(deep_tree), TEST_END};
+    TEST(groups), TEST(meshes), TEST(large_and_small_triangles), TEST(instances),
+    TEST(unbounded_instances), TEST(instances_far_away), TEST(rectangles), TEST(doubled_groups),
+    TEST(coincident), TEST(deep_tree), TEST_END};

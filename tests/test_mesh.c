@@ -150,11 +150,15 @@ static void numbers_by_hand(void) {
         "7.0064923216240853546186479164495e-46", "1e-46", "1e-99999999999999999999",
         "1.1754943508222875e-38", "1.17549429e-38", "1.1754942807573643e-38", "16777217",
         "16777217.0000000000000000000000001", "16777216.9999999999999999999999999", "16777219",
-        "33554434", "33554435", "33554437.99999999999999999999999999999999",
-        "1.00000005960464477539062500000000000000000000000000000000000000000000000000000000000000"
-        "0000000000000000000000000000000000000000000000000000000000000000000000000000000000000001",
-        "0.3", "0.1", "3.14159274101257324", "8.5899345920e9", "1e22", "1e23", "9007199254740993"};
+        "33554434", "33554435", "33554437.99999999999999999999999999999999", "0.3", "0.1",
+        "3.14159274101257324", "8.5899345920e9", "1e22", "1e23", "9007199254740993"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) check_number(texts[i]);
+    /* The middle of two floats, and a digit far behind that decides. */
+    char long_text[300];
+    snprintf(long_text, sizeof long_text, "1.000000059604644775390625%0*d", 200, 1);
+    check_number(long_text);
+    snprintf(long_text, sizeof long_text, "1.000000059604644775390625%0*d", 200, 0);
+    check_number(long_text);
     static const char *const none[] = {
         "", "-", "+", ".", "-.", "e5", "abc", "inf", "nan", " 1", "--1", "+-1"};
     for (size_t i = 0; i < sizeof none / sizeof none[0]; i++) {
@@ -365,7 +369,7 @@ static void obj_faults(void) {
         {"v 1 2 3 4 5 6 7 8\n", "1: expected the end of the line, found \"8\""},
         {"vn 1 2\n", "1: expected 3 numbers, found 2"},
         {"vn 1 2 3 4\n", "1: expected the end of the line, found \"4\""},
-        {"vt\n", "1: expected 1 numbers, found 0"},
+        {"vt\n", "1: expected 1 number, found 0"},
         {"vt 1 2 3 4\n", "1: expected the end of the line, found \"4\""},
         {"v 1 2 3\n\nabc 1\n", "3: unknown keyword \"abc\""},
         {"v 1 2 3\nvx 1\n", "2: unknown keyword \"vx\""},

@@ -12,22 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Loads what stands between BEGIN and END, which must be right. */
-static GiScene *good(const char *middle) {
-    char text[4000];
-    snprintf(text, sizeof text, "%s%s%s", BEGIN, middle, END);
-    load(text);
-    CHECK_INT(loaded.status, GLINT_OK);
-    CHECK_TEXT(loaded.findings, "");
-    return &loaded.scene;
-}
-
-static void check_vec(GiVec v, double x, double y, double z) {
-    CHECK_NEAR(v.x, x, 0);
-    CHECK_NEAR(v.y, y, 0);
-    CHECK_NEAR(v.z, z, 0);
-}
-
 /* ---------------------------------------------------------------- numbers */
 
 static void check_number(const char *text) {

@@ -19,6 +19,7 @@ typedef struct Input {
     const char *head, *filler, *tail;
     size_t head_size, filler_size, tail_size, filler_count, position;
     bool fails;
+    const char *name; /* null: test.xml */
 } Input;
 
 static inline int64_t read_input(void *user, void *buffer, size_t size) {
@@ -74,7 +75,7 @@ static inline Loaded *load_input(
     }
     GiReaderSource source = {.read = read_input,
         .user = &input,
-        .name = "test.xml",
+        .name = input.name != NULL ? input.name : "test.xml",
         .total_size = -1,
         .diagnostic = on_diagnostic,
         .diagnostic_user = &loaded,
@@ -104,4 +105,20 @@ static inline Loaded *load_filled(
 static inline void unload(void) {
     gi_scene_reset(&loaded.scene);
     CHECK_INT(loaded.memory.used, 0);
+}
+
+/* Loads what stands between BEGIN and END, which must be right. */
+static inline GiScene *good(const char *middle) {
+    char text[4000];
+    snprintf(text, sizeof text, "%s%s%s", BEGIN, middle, END);
+    load(text);
+    CHECK_INT(loaded.status, GLINT_OK);
+    CHECK_TEXT(loaded.findings, "");
+    return &loaded.scene;
+}
+
+static inline void check_vec(GiVec v, double x, double y, double z) {
+    CHECK_NEAR(v.x, x, 0);
+    CHECK_NEAR(v.y, y, 0);
+    CHECK_NEAR(v.z, z, 0);
 }

@@ -166,6 +166,12 @@ typedef struct GlintShaderId {
 typedef struct GlintSurfaceId {
     uint32_t index1;
 } GlintSurfaceId; /* zero: none */
+typedef struct GlintMeshId {
+    uint32_t index1;
+} GlintMeshId; /* zero: none */
+typedef struct GlintTextureId {
+    uint32_t index1;
+} GlintTextureId; /* zero: none */
 
 typedef struct GlintSceneDesc {
     GlintDialect dialect;            /* default AUTO; any other value overrides the file's */
@@ -208,12 +214,22 @@ GLINT_API GlintStatus glint_scene_load_stream(GlintScene *scene, GlintReadFn rea
 
 /* ---- by calls */
 
+/* How light is gathered; docs/scene-format.md, integrators. */
+typedef enum GlintIntegrator {
+    GLINT_INTEGRATOR_LIGHT_SAMPLING,
+    GLINT_INTEGRATOR_BSDF_SAMPLING,
+    GLINT_INTEGRATOR_POINT_LIGHT,
+    GLINT_INTEGRATOR_PATH /* global illumination */
+} GlintIntegrator;
+
 typedef struct GlintImageDesc {
     int width, height; /* pixels; each at least 1, at most 2^28 together; default 512 x 512 */
     int samples; /* per pixel, drawn on a regular n x n grid, n = round(sqrt); 1 (default) to 65536
                   */
-    double back_color[3]; /* linear; default black */
-    double exposure;      /* factor of every pixel; <= 0 is ignored; default 1 */
+    double back_color[3];       /* linear; default black */
+    double exposure;            /* factor of every pixel; <= 0 is ignored; default 1 */
+    GlintIntegrator integrator; /* LIGHT_SAMPLING */
+    int max_depth; /* of GLINT_INTEGRATOR_PATH: surfaces a path may meet; 1 to 4096; 12 */
     int cookie;
 } GlintImageDesc;
 
@@ -245,19 +261,33 @@ typedef enum GlintShaderType {
     GLINT_SHADER_COOK_TORRANCE
 } GlintShaderType;
 
+typedef struct GlintShaderDesc {
+    GlintShaderType type;
+    double diffuse_color[3];  /* 1 1 1 */
+    double specular_color[3]; /* of the highlight: Phong, microfacets, Cook-Torrance; 1 1 1 */
+    double exponent;          /* Phong; 1 */
+    double mirror_color[3];   /* of a mirror by Schlick's formula, added to Lambertian, Phong and
+                                 microfacets; 0 0 0: none */
+    double roughness;         /* microfacets (alpha), Cook-Torrance; > 0; 0.5 */
+    double refractive_index;  /* glazed, glass, microfacets, Cook-Torrance; > 0; 1.5 */
+    GlintShaderId substrate;  /* under the glaze; zero: the default shader. At most 8 glazed shaders
+                                 may lie on each other */
+    GlintTextureId texture;   /* in the place of diffuse_color; zero: none */
+    int cookie;
+} GlintShaderDesc;
+
 /* What a texture shows beyond its picture. */
 typedef enum GlintWrap {
     GLINT_WRAP_REPEAT, /* the picture again */
     GLINT_WRAP_CLAMP   /* its edge */
 } GlintWrap;
 
-typedef struct GlintShaderDesc {
-    GlintShaderType type;
-    double diffuse_color[3];  /* 1 1 1 */
-    double specular_color[3]; /* 1 1 1 */
-    double exponent;          /* 1 */
+typedef struct GlintTextureDesc {
+    int width, height;  /* pixels; each at least 1, at most 2^28 together */
+    const uint8_t *rgb; /* width * height * 3 bytes, top row first; 255 is 1, linear. Copied */
+    GlintWrap wrap;     /* REPEAT */
     int cookie;
-} GlintShaderDesc;
+} GlintTextureDesc;
 
 typedef enum GlintLightType {
     GLINT_LIGHT_POINT,       /* with hard shadows */
@@ -268,14 +298,6 @@ typedef enum GlintLightType {
     GLINT_LIGHT_RECTANGLE    /* shines from one side of a rectangle, with soft shadows */
 } GlintLightType;
 
-/* How light is gathered; docs/scene-format.md, integrators. */
-typedef enum GlintIntegrator {
-    GLINT_INTEGRATOR_LIGHT_SAMPLING,
-    GLINT_INTEGRATOR_BSDF_SAMPLING,
-    GLINT_INTEGRATOR_POINT_LIGHT,
-    GLINT_INTEGRATOR_PATH /* global illumination */
-} GlintIntegrator;
-
 typedef enum GlintFalloff {
     GLINT_FALLOFF_DIALECT, /* as the dialect has it; GLINT: none */
     GLINT_FALLOFF_NONE,
@@ -284,11 +306,28 @@ typedef enum GlintFalloff {
 
 typedef struct GlintLightDesc {
     GlintLightType type;
-    double position[3];  /* 0 0 0 */
-    double intensity[3]; /* 1 1 1 */
-    GlintFalloff falloff;
+    double position[3];   /* point, rectangle (its centre); 0 0 0 */
+    double intensity[3];  /* of a rectangle: radiance; 1 1 1 */
+    GlintFalloff falloff; /* point */
+    double direction[3];  /* directional: toward the light; rectangle: to the side that shines. Any
+                             length but zero; 0 0 -1 */
+    double up[3];         /* rectangle: along its height; any length but zero, not parallel to
+                             direction; 0 1 0 */
+    double width, height; /* rectangle; > 0; 1 */
     int cookie;
 } GlintLightDesc;
+
+/* Triangles. All arrays are copied; normals and texcoords may be null (the default). */
+typedef struct GlintMeshDesc {
+    const float *positions; /* vertex_count * 3 */
+    size_t vertex_count;
+    const float *normals;      /* vertex_count * 3, of any length, blended over each triangle */
+    const float *texcoords;    /* vertex_count * 2: u to the right, v up, in the texture */
+    const uint32_t *triangles; /* triangle_count * 3 indices of vertices, counted from 0. Seen from
+                                  where they run counterclockwise is the side of the normal */
+    size_t triangle_count;     /* at least 1; at most 2^28 in a scene */
+    int cookie;
+} GlintMeshDesc;
 
 typedef enum GlintSurfaceType {
     GLINT_SURFACE_SPHERE,   /* center, radius */
@@ -297,8 +336,8 @@ typedef enum GlintSurfaceType {
     GLINT_SURFACE_CONE,     /* center, radius (in the centre plane), height, tip_z; closed */
     GLINT_SURFACE_PLANE,    /* point_a, normal; infinite */
     GLINT_SURFACE_DISC,     /* center, normal, radius */
-    GLINT_SURFACE_GROUP,    /* children under transform */
-    GLINT_SURFACE_MESH      /* triangles */
+    GLINT_SURFACE_GROUP,    /* children under transform; source: drawn once more */
+    GLINT_SURFACE_MESH      /* mesh: its triangles */
 } GlintSurfaceType;
 
 typedef struct GlintSurfaceDesc {
@@ -313,12 +352,18 @@ typedef struct GlintSurfaceDesc {
     double point_b[3];      /* 0 0 0 */
     double normal[3];       /* 0 0 1; any length but zero */
     double transform[3][4]; /* group: rows of an invertible affine matrix; identity */
+    GlintMeshId mesh;       /* of a mesh; any number of surfaces may have the same */
+    GlintSurfaceId source;  /* group: a group that exists already and is drawn here once more, with
+                               all it contains now or later, under this one's transform; it must
+                               not contain the parent. zero: none */
     int cookie;
 } GlintSurfaceDesc;
 
 GLINT_API GlintImageDesc glint_image_desc_default(void);
 GLINT_API GlintCameraDesc glint_camera_desc_default(void);
 GLINT_API GlintShaderDesc glint_shader_desc_default(void);
+GLINT_API GlintTextureDesc glint_texture_desc_default(void);
+GLINT_API GlintMeshDesc glint_mesh_desc_default(void);
 GLINT_API GlintLightDesc glint_light_desc_default(void);
 GLINT_API GlintSurfaceDesc glint_surface_desc_default(GlintSurfaceType type);
 
@@ -332,8 +377,27 @@ GLINT_API GlintStatus glint_scene_add_light(
     GlintScene *scene, const GlintLightDesc *desc, GlintError *error);
 GLINT_API GlintStatus glint_scene_add_shader(
     GlintScene *scene, const GlintShaderDesc *desc, GlintShaderId *id, GlintError *error);
+GLINT_API GlintStatus glint_scene_add_texture(
+    GlintScene *scene, const GlintTextureDesc *desc, GlintTextureId *id, GlintError *error);
+GLINT_API GlintStatus glint_scene_add_mesh(
+    GlintScene *scene, const GlintMeshDesc *desc, GlintMeshId *id, GlintError *error);
 GLINT_API GlintStatus glint_scene_add_surface(
     GlintScene *scene, const GlintSurfaceDesc *desc, GlintSurfaceId *id, GlintError *error);
+
+/* The same from files; path is opened as it stands. Every call reads its file anew, so keep the id.
+ * Errors, with the path and, for meshes, the line in *error: ARGUMENT, FILE (also a picture that is
+ * broken), SCENE (a mesh that is broken), MEMORY, THREAD. */
+
+/* A PNG or JPEG picture. */
+GLINT_API GlintStatus glint_scene_load_texture(
+    GlintScene *scene, const char *path, GlintWrap wrap, GlintTextureId *id, GlintError *error);
+/* A mesh: .obj, .msh or .ply. */
+GLINT_API GlintStatus glint_scene_load_mesh(
+    GlintScene *scene, const char *path, GlintMeshId *id, GlintError *error);
+/* A cube map (PFM, docs/scene-format.md) as what rays see that hit nothing, in the place of
+ * back_color; scale is a factor of its values. A second call replaces the first. */
+GLINT_API GlintStatus glint_scene_load_environment(
+    GlintScene *scene, const char *path, double scale, GlintError *error);
 
 /* ---------------------------------------------------------------- commit, render, trace */
 

@@ -190,8 +190,11 @@ static bool split_range(Build *build, Range range, Range *left, Range *right) {
     Bounds bounds, centers;
     bound_items(items, count, &bounds, &centers);
     GiBuildNode *node = &build->nodes[range.node];
-    gi_four_store(node->low, bounds.low);
-    gi_four_store(node->high, bounds.high);
+    float low[4], high[4];
+    gi_four_store(low, bounds.low);
+    gi_four_store(high, bounds.high);
+    memcpy(node->low, low, sizeof node->low);
+    memcpy(node->high, high, sizeof node->high);
     size_t middle = 0;
     if (count > GI_BUILD_LEAF_SIZE && range.depth < SAH_DEPTH_LIMIT) {
         Binning binning = binning_of(&centers, count);

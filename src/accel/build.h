@@ -30,8 +30,10 @@ enum { GI_BUILD_LEAF_SIZE = 8 };
 /* Inner: children are nodes first and first + 1, count 0. Leaf: items first .. first + count - 1 of
  * the permuted array. */
 typedef struct GiBuildNode {
-    float low[4], high[4]; /* the fourth lanes are not used */
-    uint32_t first, count;
+    float low[3];
+    uint32_t first;
+    float high[3];
+    uint32_t count;
 } GiBuildNode;
 
 typedef struct GiBuildTree {

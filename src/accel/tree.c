@@ -19,13 +19,55 @@ static int compare_doubles(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
+static bool box_is_empty(const GiBox *box) { return box->low.x > box->high.x; }
+
+/* Walks over what the tree stands over: the refs, then mesh by mesh the triangles. */
+typedef struct Cursor {
+    const GiShapes *shapes;
+    const GiTreeInput *input;
+    size_t next_ref, mesh;
+    uint32_t next_triangle; /* of that mesh */
+} Cursor;
+
+static size_t input_count(const GiShapes *shapes, const GiTreeInput *input) {
+    size_t count = input->ref_count;
+    for (size_t i = 0; i < input->mesh_count; i++) {
+        count += shapes->meshes[input->meshes[i]].triangle_count;
+    }
+    return count;
+}
+
+static Cursor cursor_at(const GiShapes *shapes, const GiTreeInput *input, size_t index) {
+    Cursor cursor = {.shapes = shapes, .input = input, .next_ref = index};
+    if (index < input->ref_count) return cursor;
+    cursor.next_ref = input->ref_count;
+    index -= input->ref_count;
+    while (index >= shapes->meshes[input->meshes[cursor.mesh]].triangle_count) {
+        index -= shapes->meshes[input->meshes[cursor.mesh++]].triangle_count;
+    }
+    cursor.next_triangle = (uint32_t)index;
+    return cursor;
+}
+
+static GiShapeRef cursor_next(Cursor *cursor) {
+    const GiTreeInput *input = cursor->input;
+    if (cursor->next_ref < input->ref_count) return input->refs[cursor->next_ref++];
+    const GiMesh *mesh = &cursor->shapes->meshes[input->meshes[cursor->mesh]];
+    while (cursor->next_triangle == mesh->triangle_count) {
+        mesh = &cursor->shapes->meshes[input->meshes[++cursor->mesh]];
+        cursor->next_triangle = 0;
+    }
+    return gi_shape_ref(GI_SHAPE_TRIANGLE, mesh->first_triangle + cursor->next_triangle++);
+}
+
 /* The median of the centres of up to 255 shapes, evenly picked. */
-static GiVec median_center(const GiShapes *shapes, const GiShapeRef *refs, size_t count) {
+static GiVec median_center(const GiShapes *shapes, const GiTreeInput *input, size_t count) {
     enum { SAMPLE = 255 };
     double samples[3][SAMPLE];
     size_t found = 0, step = count / SAMPLE + 1;
     for (size_t i = 0; i < count && found < SAMPLE; i += step) {
-        GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
+        Cursor cursor = cursor_at(shapes, input, i);
+        GiBox box = gi_shape_bounds(shapes, cursor_next(&cursor), GI_SHAPE_NONE);
         if (!box_is_finite(&box)) continue;
         samples[0][found] = box.low.x / 2 + box.high.x / 2;
         samples[1][found] = box.low.y / 2 + box.high.y / 2;
@@ -39,15 +81,8 @@ static GiVec median_center(const GiShapes *shapes, const GiShapeRef *refs, size_
     return gi_vec(samples[0][found / 2], samples[1][found / 2], samples[2][found / 2]);
 }
 
-typedef struct Prepare {
-    const GiShapes *shapes;
-    const GiShapeRef *refs;
-    GiVec center;
-    double scale;
-    GiBuildItem *items;
-} Prepare;
-
 static inline double larger(double a, double b) { return a > b ? a : b; } /* fmax is a call */
+static inline double smaller(double a, double b) { return a < b ? a : b; }
 
 static double largest_component(const GiBox *box, GiVec center) {
     GiVec low = gi_sub(box->low, center), high = gi_sub(box->high, center);
@@ -56,12 +91,53 @@ static double largest_component(const GiBox *box, GiVec center) {
     return larger(x, larger(y, z));
 }
 
-/* Boxes in kernel space, grown by the error bound (layout.h). */
+/* What one worker has seen of the shapes, on a cache line of its own. */
+typedef struct Survey {
+    _Alignas(64) GiBox bounds; /* of what has finite bounds */
+    size_t bounded, unbounded;
+} Survey;
+
+typedef struct Prepare {
+    const GiShapes *shapes;
+    const GiTreeInput *input;
+    GiVec center;
+    double scale;
+    Survey *surveys;
+    GiBuildItem *items;
+} Prepare;
+
+static const GiBox empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+static GiBox box_around(const GiBox *a, const GiBox *b) {
+    return (GiBox){{smaller(a->low.x, b->low.x), smaller(a->low.y, b->low.y), smaller(a->low.z, b->low.z)},
+        {larger(a->high.x, b->high.x), larger(a->high.y, b->high.y), larger(a->high.z, b->high.z)}};
+}
+
+static void survey_shapes(void *context, size_t begin, size_t end, int worker) {
+    const Prepare *prepare = context;
+    Survey survey = prepare->surveys[worker];
+    Cursor cursor = cursor_at(prepare->shapes, prepare->input, begin);
+    for (size_t i = begin; i < end; i++) {
+        GiBox box = gi_shape_bounds(prepare->shapes, cursor_next(&cursor), GI_SHAPE_NONE);
+        if (box_is_finite(&box)) {
+            survey.bounds = box_around(&survey.bounds, &box);
+            survey.bounded++;
+        } else if (!box_is_empty(&box)) {
+            survey.unbounded++;
+        }
+    }
+    prepare->surveys[worker] = survey;
+}
+
+/* Boxes in kernel space, grown by the error bound (layout.h). What has no finite box begins with
+ * not-a-number. */
 static void prepare_items(void *context, size_t begin, size_t end, int worker) {
     (void)worker;
     const Prepare *prepare = context;
+    Cursor cursor = cursor_at(prepare->shapes, prepare->input, begin);
     for (size_t i = begin; i < end; i++) {
-        GiBox box = gi_shape_bounds(prepare->shapes, prepare->refs[i], GI_SHAPE_NONE);
+        GiShapeRef ref = cursor_next(&cursor);
+        GiBox box = gi_shape_bounds(prepare->shapes, ref, GI_SHAPE_NONE);
         double growth = GI_TREE_GROWTH * largest_component(&box, prepare->center) +
                         GI_TREE_GROWTH_LEAST / prepare->scale;
         const GiVec reach = {growth, growth, growth};
@@ -69,13 +145,13 @@ static void prepare_items(void *context, size_t begin, size_t end, int worker) {
         GiVec high = gi_add(gi_sub(box.high, prepare->center), reach);
         GiBuildItem *item = &prepare->items[i];
         double scale = prepare->scale;
-        item->low[0] = (float)(low.x * scale);
+        item->low[0] = box_is_finite(&box) ? (float)(low.x * scale) : NAN;
         item->low[1] = (float)(low.y * scale);
         item->low[2] = (float)(low.z * scale);
         item->high[0] = (float)(high.x * scale);
         item->high[1] = (float)(high.y * scale);
         item->high[2] = (float)(high.z * scale);
-        gi_build_set_id(item, prepare->refs[i].bits);
+        gi_build_set_id(item, ref.bits);
     }
 }
 
@@ -83,6 +159,7 @@ static void prepare_items(void *context, size_t begin, size_t end, int worker) {
 
 typedef struct Layout {
     const GiShapes *shapes;
+    const GiTreeInput *input;
     const GiBuildItem *items;
     const GiBuildNode *nodes;
     GiTreeStore *store;
@@ -91,12 +168,41 @@ typedef struct Layout {
     double root_area;
 } Layout;
 
-static bool leaf_is_spheres(const GiBuildItem *items, const GiBuildNode *leaf) {
-    for (uint32_t i = 0; i < leaf->count; i++) {
-        GiShapeRef ref = {gi_build_id(&items[leaf->first + i])};
-        if (gi_shape_kind(ref) != GI_SHAPE_SPHERE) return false;
+static GiShapeRef item_ref(const Layout *layout, const GiBuildNode *leaf, uint32_t i) {
+    return (GiShapeRef){gi_build_id(&layout->items[leaf->first + i])};
+}
+
+/* Spheres, triangles of one mesh, or boxes of anything. */
+static GiChildKind leaf_kind(const Layout *layout, const GiBuildNode *leaf) {
+    GiShapeKind kind = gi_shape_kind(item_ref(layout, leaf, 0));
+    if (kind != GI_SHAPE_SPHERE && kind != GI_SHAPE_TRIANGLE) return GI_CHILD_BOXES;
+    for (uint32_t i = 1; i < leaf->count; i++) {
+        if (gi_shape_kind(item_ref(layout, leaf, i)) != kind) return GI_CHILD_BOXES;
     }
-    return true;
+    if (kind == GI_SHAPE_SPHERE) return GI_CHILD_SPHERES;
+    /* Out of the range of single precision the kernels' scale would be, and their products. */
+    if (!(layout->scale > 0x1p-100 && layout->scale < 0x1p100)) return GI_CHILD_BOXES;
+    uint32_t first = gi_shape_index(item_ref(layout, leaf, 0));
+    const GiMesh *mesh = &layout->shapes->meshes[gi_shape_mesh(layout->shapes, first)];
+    for (uint32_t i = 1; i < leaf->count; i++) {
+        uint32_t at = gi_shape_index(item_ref(layout, leaf, i)) - mesh->first_triangle;
+        if (at >= mesh->triangle_count) return GI_CHILD_BOXES;
+    }
+    return GI_CHILD_TRIANGLES;
+}
+
+/* Gives a triangle the next place in its mesh. */
+static GiShapeRef place_triangle(Layout *layout, GiShapeRef ref) {
+    uint32_t mesh = gi_shape_mesh(layout->shapes, gi_shape_index(ref));
+    uint32_t place = layout->shapes->meshes[mesh].first_triangle + layout->input->placed[mesh]++;
+    layout->input->original[place] = gi_shape_index(ref);
+    return gi_shape_ref(GI_SHAPE_TRIANGLE, place);
+}
+
+static uint32_t emit_triangles(Layout *layout, const GiBuildNode *leaf) {
+    uint32_t first = gi_shape_index(place_triangle(layout, item_ref(layout, leaf, 0)));
+    for (uint32_t i = 1; i < leaf->count; i++) place_triangle(layout, item_ref(layout, leaf, i));
+    return gi_child_triangles(first, leaf->count);
 }
 
 static uint32_t emit_spheres(Layout *layout, const GiBuildNode *leaf) {
@@ -109,7 +215,7 @@ static uint32_t emit_spheres(Layout *layout, const GiBuildNode *leaf) {
             block->shape[i].bits = GI_SHAPE_NONE;
             continue;
         }
-        GiShapeRef ref = {gi_build_id(&layout->items[leaf->first + i])};
+        GiShapeRef ref = item_ref(layout, leaf, i);
         const GiSphere *sphere = &layout->shapes->spheres[gi_shape_index(ref)];
         GiVec center = gi_scale(gi_sub(sphere->center, layout->center), layout->scale);
         double radius = sphere->radius * layout->scale;
@@ -120,7 +226,7 @@ static uint32_t emit_spheres(Layout *layout, const GiBuildNode *leaf) {
         block->radius[i] = (float)(radius + GI_TREE_GROWTH * farthest + GI_TREE_GROWTH_LEAST);
         block->shape[i] = ref;
     }
-    return GI_CHILD_BLOCK | GI_CHILD_SPHERES | tree->sphere_block_count++;
+    return gi_child(GI_CHILD_SPHERES, tree->sphere_block_count++);
 }
 
 static uint32_t emit_boxes(Layout *layout, const GiBuildNode *leaf) {
@@ -132,9 +238,13 @@ static uint32_t emit_boxes(Layout *layout, const GiBuildNode *leaf) {
             block->low[axis][i] = item != NULL ? item->low[axis] : INFINITY;
             block->high[axis][i] = item != NULL ? item->high[axis] : -INFINITY;
         }
-        block->shape[i].bits = item != NULL ? gi_build_id(item) : GI_SHAPE_NONE;
+        block->shape[i].bits = GI_SHAPE_NONE;
+        if (item == NULL) continue;
+        GiShapeRef ref = item_ref(layout, leaf, i);
+        bool triangle = gi_shape_kind(ref) == GI_SHAPE_TRIANGLE;
+        block->shape[i] = triangle ? place_triangle(layout, ref) : ref;
     }
-    return GI_CHILD_BLOCK | tree->box_block_count++;
+    return gi_child(GI_CHILD_BOXES, tree->box_block_count++);
 }
 
 /* The items of a leaf lie anywhere in the array of spheres: without this, emit_spheres waits for
@@ -159,8 +269,12 @@ static uint32_t emit(Layout *layout, uint32_t index) {
     const GiBuildNode *nodes = layout->nodes;
     add_cost(layout, &nodes[index]);
     if (nodes[index].count > 0) {
-        return leaf_is_spheres(layout->items, &nodes[index]) ? emit_spheres(layout, &nodes[index])
-                                                             : emit_boxes(layout, &nodes[index]);
+        const GiBuildNode *leaf = &nodes[index];
+        switch (leaf_kind(layout, leaf)) {
+        case GI_CHILD_SPHERES: return emit_spheres(layout, leaf);
+        case GI_CHILD_TRIANGLES: return emit_triangles(layout, leaf);
+        default: return emit_boxes(layout, leaf);
+        }
     }
     /* Open the inner child of the largest box until there are eight. */
     uint32_t children[GI_TREE_WIDTH] = {nodes[index].first, nodes[index].first + 1};
@@ -198,18 +312,30 @@ static uint32_t emit(Layout *layout, uint32_t index) {
     return node_index;
 }
 
-static GlintStatus lay_out(GiMemory *memory, const GiShapes *shapes, const GiBuildItem *items,
-    const GiBuildTree *binary, GiTreeStore *store) {
-    size_t leaves = 0, sphere_leaves = 0;
+static GlintStatus lay_out(GiMemory *memory, const GiShapes *shapes, const GiTreeInput *input,
+    const GiBuildItem *items, const GiBuildTree *binary, GiTreeStore *store) {
+    const GiBuildNode *root = &binary->nodes[0];
+    Layout layout = {
+        .shapes = shapes,
+        .input = input,
+        .items = items,
+        .nodes = binary->nodes,
+        .store = store,
+        .scale = store->tree.scale,
+        .center = store->tree.center,
+        .root_area = gi_build_area(root->low, root->high),
+    };
+    size_t leaves = 0, kinds[4] = {0};
     for (size_t i = 0; i < binary->node_count; i++) {
         if (binary->nodes[i].count == 0) continue;
         leaves++;
-        sphere_leaves += leaf_is_spheres(items, &binary->nodes[i]);
+        kinds[leaf_kind(&layout, &binary->nodes[i])]++;
     }
+    store->leaf_count = leaves;
     /* Every wide node swallows at least one inner node; memory that is not used is not touched. */
     store->node_capacity = binary->node_count - leaves;
-    store->sphere_block_capacity = sphere_leaves;
-    store->box_block_capacity = leaves - sphere_leaves;
+    store->sphere_block_capacity = kinds[GI_CHILD_SPHERES];
+    store->box_block_capacity = kinds[GI_CHILD_BOXES];
     store->nodes = gi_memory_allocate_lines(memory, store->node_capacity, sizeof *store->nodes);
     store->sphere_blocks = gi_memory_allocate_lines(
         memory, store->sphere_block_capacity, sizeof *store->sphere_blocks);
@@ -218,80 +344,85 @@ static GlintStatus lay_out(GiMemory *memory, const GiShapes *shapes, const GiBui
     if (store->nodes == NULL || store->sphere_blocks == NULL || store->box_blocks == NULL) {
         return GLINT_ERROR_MEMORY;
     }
-    const GiBuildNode *root = &binary->nodes[0];
-    Layout layout = {
-        .shapes = shapes,
-        .items = items,
-        .nodes = binary->nodes,
-        .store = store,
-        .scale = store->tree.scale,
-        .center = store->tree.center,
-        .root_area = gi_build_area(root->low, root->high),
-    };
     store->tree.root = emit(&layout, 0);
     return GLINT_OK;
 }
 
 /* ---------------------------------------------------------------- the whole */
 
-/* Separates what has no finite box (kept in store->unbounded) and finds the scale of the rest. */
-static GlintStatus sort_out(GiMemory *memory, const GiShapes *shapes, const GiShapeRef *refs,
-    size_t count, GiTreeStore *store) {
-    double reach = 0;
-    size_t unbounded = 0;
-    for (size_t i = 0; i < count; i++) {
-        GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
-        if (box_is_finite(&box)) {
-            reach = larger(reach, largest_component(&box, store->tree.center));
-        } else {
-            unbounded++;
-        }
-    }
+static GlintStatus list_unbounded(
+    GiMemory *memory, const Prepare *prepare, size_t count, size_t unbounded, GiTreeStore *store) {
+    store->unbounded = gi_memory_allocate(memory, unbounded * sizeof *store->unbounded);
+    if (store->unbounded == NULL) return GLINT_ERROR_MEMORY;
     store->unbounded_capacity = unbounded;
-    if (unbounded > 0) {
-        store->unbounded = gi_memory_allocate(memory, unbounded * sizeof *store->unbounded);
-        if (store->unbounded == NULL) return GLINT_ERROR_MEMORY;
-        for (size_t i = 0; i < count; i++) {
-            GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
-            if (!box_is_finite(&box)) {
-                store->unbounded[store->tree.unbounded_count++] = refs[i];
-            }
-        }
+    Cursor cursor = cursor_at(prepare->shapes, prepare->input, 0);
+    for (size_t i = 0; i < count; i++) {
+        GiShapeRef ref = cursor_next(&cursor);
+        GiBox box = gi_shape_bounds(prepare->shapes, ref, GI_SHAPE_NONE);
+        if (box_is_finite(&box) || box_is_empty(&box)) continue;
+        store->unbounded[store->tree.unbounded_count++] = ref;
     }
-    int exponent = 0;
-    if (reach > 0 && isfinite(reach)) frexp(reach, &exponent);
-    store->tree.scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
     return GLINT_OK;
 }
 
+/* Finds the bounds and the scale, and sets apart what has no finite box; *bounded is the number of
+ * the others. */
+static GlintStatus sort_out(GiMemory *memory, GiPool *pool, Prepare *prepare, size_t count,
+    GiTreeStore *store, size_t *bounded) {
+    size_t workers = (size_t)gi_pool_worker_count(pool), unbounded = 0;
+    prepare->surveys = gi_memory_allocate_lines(memory, workers, sizeof *prepare->surveys);
+    if (prepare->surveys == NULL) return GLINT_ERROR_MEMORY;
+    for (size_t i = 0; i < workers; i++) prepare->surveys[i] = (Survey){.bounds = empty_box};
+    gi_parallel_for(pool, count, 4096, survey_shapes, prepare);
+    GiBox bounds = empty_box;
+    *bounded = 0;
+    for (size_t i = 0; i < workers; i++) {
+        bounds = box_around(&bounds, &prepare->surveys[i].bounds);
+        *bounded += prepare->surveys[i].bounded;
+        unbounded += prepare->surveys[i].unbounded;
+    }
+    gi_memory_free_lines(memory, prepare->surveys, workers, sizeof *prepare->surveys);
+    double reach = *bounded > 0 ? largest_component(&bounds, store->tree.center) : 0;
+    int exponent = 0;
+    if (reach > 0 && isfinite(reach)) frexp(reach, &exponent);
+    store->tree.scale = prepare->scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
+    store->tree.bounds = bounds;
+    if (unbounded == 0) return GLINT_OK;
+    store->tree.bounds = (GiBox){empty_box.high, empty_box.low};
+    return list_unbounded(memory, prepare, count, unbounded, store);
+}
+
+/* Drops the items that have no finite box, keeping the order. */
+static void drop_items(GiBuildItem *items, size_t count) {
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (!isnan(items[i].low[0])) items[kept++] = items[i];
+    }
+}
+
 GlintStatus gi_tree_build(GiMemory *memory, GiPool *pool, const GiShapes *shapes,
-    const GiShapeRef *refs, size_t count, const GlintMonitor *monitor, GiTreeStore *store) {
+    const GiTreeInput *input, const GlintMonitor *monitor, GiTreeStore *store) {
+    size_t count = input_count(shapes, input), item_count = 0;
     memset(store, 0, sizeof *store);
     store->tree.root = GI_CHILD_NONE;
-    store->tree.center = median_center(shapes, refs, count);
-    GiBuildItem *items = NULL;
+    store->tree.center = median_center(shapes, input, count);
+    Prepare prepare = {.shapes = shapes, .input = input, .center = store->tree.center};
     GiBuildTree binary = {0};
-    GlintStatus status = sort_out(memory, shapes, refs, count, store);
-    size_t item_count = count - store->tree.unbounded_count;
+    GlintStatus status = sort_out(memory, pool, &prepare, count, store, &item_count);
     if (status == GLINT_OK && item_count > 0) {
-        items = gi_memory_allocate_lines(memory, count, sizeof *items);
-        if (items == NULL) status = GLINT_ERROR_MEMORY;
+        prepare.items = gi_memory_allocate_lines(memory, count, sizeof *prepare.items);
+        if (prepare.items == NULL) status = GLINT_ERROR_MEMORY;
     }
     if (status == GLINT_OK && item_count > 0) {
-        Prepare prepare = {shapes, refs, store->tree.center, store->tree.scale, items};
         gi_parallel_for(pool, count, 4096, prepare_items, &prepare);
-        if (item_count < count) { /* rare: drop the unbounded, keeping the order */
-            size_t kept = 0;
-            for (size_t i = 0; i < count; i++) {
-                GiBox box = gi_shape_bounds(shapes, refs[i], GI_SHAPE_NONE);
-                if (box_is_finite(&box)) items[kept++] = items[i];
-            }
-        }
-        status = gi_build(memory, pool, items, item_count, monitor, &binary);
-        if (status == GLINT_OK) status = lay_out(memory, shapes, items, &binary, store);
+        if (item_count < count) drop_items(prepare.items, count);
+        status = gi_build(memory, pool, prepare.items, item_count, monitor, &binary);
+    }
+    if (status == GLINT_OK && item_count > 0) {
+        status = lay_out(memory, shapes, input, prepare.items, &binary, store);
     }
     gi_build_free(memory, &binary);
-    gi_memory_free_lines(memory, items, count, sizeof *items);
+    gi_memory_free_lines(memory, prepare.items, count, sizeof *prepare.items);
     if (status != GLINT_OK) {
         gi_tree_free(memory, store);
         return status;

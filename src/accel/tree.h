@@ -13,11 +13,23 @@ typedef struct GiTreeStore {
     GiBoxBlock *box_blocks;
     GiShapeRef *unbounded;
     size_t node_capacity, sphere_block_capacity, box_block_capacity, unbounded_capacity;
-    double sah_cost; /* node visits plus block tests a random line through the scene expects */
+    size_t leaf_count; /* blocks and ranges of triangles */
+    double sah_cost;   /* node visits plus block tests a random line through the scene expects */
 } GiTreeStore;
 
-/* Builds the tree over the given shapes. On failure nothing is left behind. Errors: MEMORY,
- * CANCELLED. */
+/* What a tree stands over: refs, and all triangles of some meshes, which need no list. Triangles
+ * get new places within their mesh, in the order of the tree: original[place] = index now. placed
+ * counts the places given, mesh by mesh. Both arrays are for all meshes of the scene, and every
+ * triangle is in one tree at most. The tree speaks of the new places; bringing the triangles there
+ * is left to the caller. Triangles without area get none. */
+typedef struct GiTreeInput {
+    const GiShapeRef *refs;
+    const uint32_t *meshes;
+    size_t ref_count, mesh_count;
+    uint32_t *original, *placed;
+} GiTreeInput;
+
+/* On failure nothing is left behind. Errors: MEMORY, CANCELLED. */
 GlintStatus gi_tree_build(GiMemory *memory, GiPool *pool, const GiShapes *shapes,
-    const GiShapeRef *refs, size_t count, const GlintMonitor *monitor, GiTreeStore *store);
+    const GiTreeInput *input, const GlintMonitor *monitor, GiTreeStore *store);
 void gi_tree_free(GiMemory *memory, GiTreeStore *store);

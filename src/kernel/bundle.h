@@ -52,10 +52,11 @@ static inline gi_wide_Ray tile_ray(Tile *tile, GiShapeRef ref, int i) {
 static inline void resolve_ties(Tile *tile, GiShapeRef ref, int i, unsigned bits) {
     for (; bits != 0; bits &= bits - 1) {
         uint32_t *shape = &tile->bundle->shape[i + lowest_bit(bits)];
+        uint32_t *instance = &tile->bundle->instance[i + lowest_bit(bits)];
         if (*shape != GI_SHAPE_NONE &&
-            gi_shape_before(tile->trace->shapes, ref, GI_SHAPE_NONE, (GiShapeRef){*shape},
-                tile->bundle->instance[i + lowest_bit(bits)])) {
+            gi_shape_before(tile->shapes, ref, tile->instance, (GiShapeRef){*shape}, *instance)) {
             *shape = ref.bits;
+            *instance = tile->instance;
         }
     }
 }
@@ -63,6 +64,24 @@ static inline void resolve_ties(Tile *tile, GiShapeRef ref, int i, unsigned bits
 /* Whether one of the rays j .. j + GI_DOUBLES - 1 is among the bits. */
 static inline bool any_of(unsigned bits, int j) {
     return (bits >> j & ((1u << GI_DOUBLES) - 1)) != 0;
+}
+
+static inline void packet_refresh_far(Tile *tile, int packet) {
+    const GiBundle *bundle = tile->bundle;
+    R far = R_OF(-INFINITY);
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
+        int i = packet * GI_PACKET_SIZE + j;
+        far = R_MAX(far, r_load(bundle->t + i) * r_load(bundle->depth + i));
+    }
+    tile->packets.far[packet] = (float)(r_maximum(far) * tile->scale) * (1 + GI_WIDER);
+}
+
+/* These rays of a packet look for nothing any more. Returns whether that was its last. */
+static inline bool packet_stop(Tile *tile, int packet, unsigned rays) {
+    tile->alive[packet] &= ~rays;
+    if (rays == 0 || tile->alive[packet] != 0) return false;
+    packet_clear(&tile->packets, packet);
+    return true;
 }
 
 /* One shape against those rays of a packet whose bits are set. Returns whether anything changed. */
@@ -74,50 +93,159 @@ static inline bool test_closest(Tile *tile, GiShapeRef ref, int packet, unsigned
         int i = packet * GI_PACKET_SIZE + j;
         gi_wide_Ray ray = tile_ray(tile, ref, i);
         R t, best = r_load(bundle->t + i);
-        M hit = gi_wide_shape(tile->trace->shapes, ref, &ray, r_load(bundle->t_min + i),
-            r_load(bundle->t_max + i), &t);
+        M hit = gi_wide_shape(
+            tile->shapes, ref, &ray, r_load(bundle->t_min + i), r_load(bundle->t_max + i), &t);
         M nearer = hit & R_LESS(t, best);
         unsigned bits = m_bits(nearer), ties = m_bits(hit & R_EQUAL(t, best));
         if (bits != 0) {
             r_store(bundle->t + i, R_SELECT(nearer, t, best));
             u_store_where(bundle->shape + i, bits, ref.bits);
+            u_store_where(bundle->instance + i, bits, tile->instance);
             changed |= bits;
         }
         if (ties != 0) resolve_ties(tile, ref, i, ties);
     }
     if (changed == 0) return false;
-    R far = R_OF(-INFINITY);
-    for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
-        int i = packet * GI_PACKET_SIZE + j;
-        far = R_MAX(far, r_load(bundle->t + i) * r_load(bundle->depth + i));
-    }
-    tile->packets.far[packet] = (float)(r_maximum(far) * tile->scale) * (1 + GI_WIDER);
+    packet_refresh_far(tile, packet);
     return true;
 }
 
 static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
     GiBundle *bundle = tile->bundle;
     unsigned stopped = 0;
-    rays &= ~sixteen_equal(ref.bits, bundle->skip + packet * GI_PACKET_SIZE);
+    unsigned skip = sixteen_equal(ref.bits, bundle->skip + packet * GI_PACKET_SIZE);
+    if (skip != 0) {
+        skip &= sixteen_equal(tile->instance, bundle->skip_instance + packet * GI_PACKET_SIZE);
+        rays &= ~skip;
+    }
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
         gi_wide_Ray ray = tile_ray(tile, ref, i);
         R t;
-        M hit = gi_wide_shape(tile->trace->shapes, ref, &ray, r_load(bundle->t_min + i),
-            r_load(bundle->t_max + i), &t);
+        M hit = gi_wide_shape(
+            tile->shapes, ref, &ray, r_load(bundle->t_min + i), r_load(bundle->t_max + i), &t);
         unsigned bits = m_bits(hit) & rays >> j;
         u_store_where(bundle->shape + i, bits, ref.bits);
         stopped |= bits << j;
     }
-    tile->alive[packet] &= ~stopped;
-    if (stopped == 0 || tile->alive[packet] != 0) return false;
-    packet_clear(&tile->packets, packet);
-    return true;
+    return packet_stop(tile, packet, stopped);
 }
 
 static inline bool tile_test(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
     return tile->any ? test_any(tile, ref, packet, rays) : test_closest(tile, ref, packet, rays);
+}
+
+/* ---------------------------------------------------------------- instances */
+
+static bool bundle_inside(const Tile *tile, uint32_t instance, GiBundle *inner, double apart);
+
+/* The next larger number: hits at t itself count then, which document order decides about. */
+static inline double step_up(double t) {
+    uint64_t bits;
+    if (!(t < INFINITY)) return t;
+    t += 0.0; /* no minus zero */
+    memcpy(&bits, &t, sizeof bits);
+    bits = t < 0 ? bits - 1 : bits + 1;
+    memcpy(&t, &bits, sizeof bits);
+    return t;
+}
+
+/* Takes the rays of one test into the instance's space, appending them to the inner bundle. */
+static inline void take_inside(const Tile *tile, const Test *test, const GiAffine *to_object,
+    GiBundle *inner, uint16_t *from) {
+    const GiBundle *bundle = tile->bundle;
+    unsigned rays = test->rays & tile->alive[test->packet];
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
+        if (!any_of(rays, j)) continue;
+        int first = (int)test->packet * GI_PACKET_SIZE + j;
+        gi_wide_Ray ray = {.ox = r_load(bundle->ox + first),
+            .oy = r_load(bundle->oy + first),
+            .oz = r_load(bundle->oz + first),
+            .dx = r_load(bundle->dx + first),
+            .dy = r_load(bundle->dy + first),
+            .dz = r_load(bundle->dz + first)};
+        ray = gi_wide_to_object(&ray, to_object);
+        double o[3][GI_DOUBLES], d[3][GI_DOUBLES];
+        r_store(o[0], ray.ox);
+        r_store(o[1], ray.oy);
+        r_store(o[2], ray.oz);
+        r_store(d[0], ray.dx);
+        r_store(d[1], ray.dy);
+        r_store(d[2], ray.dz);
+        for (int lane = 0; lane < GI_DOUBLES; lane++) {
+            if (!(rays >> (j + lane) & 1)) continue;
+            int i = first + lane, to = inner->count++;
+            from[to] = (uint16_t)i;
+            inner->ox[to] = o[0][lane], inner->oy[to] = o[1][lane], inner->oz[to] = o[2][lane];
+            inner->dx[to] = d[0][lane], inner->dy[to] = d[1][lane], inner->dz[to] = d[2][lane];
+            inner->t_min[to] = bundle->t_min[i];
+            inner->t_max[to] = bundle->t_max[i];
+            inner->skip[to] = bundle->skip[i];
+            inner->skip_instance[to] = bundle->skip_instance[i];
+            if (tile->any) continue;
+            bool found = bundle->shape[i] != GI_SHAPE_NONE;
+            inner->t[to] = found ? step_up(bundle->t[i]) : bundle->t[i];
+        }
+    }
+}
+
+/* Brings home what the rays of a packet met inside. */
+static inline bool bring_home(
+    Tile *tile, const GiBundle *inner, const uint16_t *from, int begin, int end) {
+    GiBundle *bundle = tile->bundle;
+    int packet = from[begin] / GI_PACKET_SIZE;
+    unsigned met = 0;
+    for (int k = begin; k < end; k++) {
+        if (inner->shape[k] == GI_SHAPE_NONE) continue;
+        int i = from[k];
+        GiShapeRef ref = {inner->shape[k]};
+        met |= 1u << i % GI_PACKET_SIZE;
+        if (!tile->any && inner->t[k] == bundle->t[i] && bundle->shape[i] != GI_SHAPE_NONE &&
+            !gi_shape_before(tile->shapes, ref, inner->instance[k], (GiShapeRef){bundle->shape[i]},
+                bundle->instance[i])) {
+            continue;
+        }
+        if (!tile->any) bundle->t[i] = inner->t[k];
+        bundle->shape[i] = ref.bits;
+        bundle->instance[i] = inner->instance[k];
+    }
+    if (tile->any) return packet_stop(tile, packet, met);
+    if (met != 0) packet_refresh_far(tile, packet);
+    return met != 0;
+}
+
+/* All tests of one instance that stand in a row: their rays are a bundle of their own, since an
+ * affine map leaves them one point in common. The bundle is too large for a frame that is always
+ * there, hence a function of its own. Returns whether anything changed. */
+static bool tile_instance(Tile *tile, const Test *tests, int count) {
+    GiBundle inner;
+    uint16_t from[GI_BUNDLE_SIZE];
+    uint32_t index = gi_shape_index(tests[0].shape);
+    const GiInstance *instance = &tile->shapes->instances[index];
+    const GiAffine *to_object = &tile->shapes->transforms[instance->transform].to_object;
+    inner.count = 0;
+    for (int i = 0; i < count; i++) take_inside(tile, &tests[i], to_object, &inner, from);
+    if (inner.count == 0) return false;
+    inner.apex = gi_affine_point(to_object, tile->bundle->apex);
+    inner.side = gi_affine_vector(to_object, tile->bundle->side);
+    inner.stop = tile->bundle->stop;
+    inner.stop_context = tile->bundle->stop_context;
+    /* Sixteen roundings of the numbers that a point's image is the sum of. */
+    double largest = gi_largest(tile->bundle->apex), apart = 0;
+    for (int row = 0; row < 3; row++) {
+        const double *m = to_object->m[row];
+        double sum = (fabs(m[0]) + fabs(m[1]) + fabs(m[2])) * largest + fabs(m[3]);
+        if (apart < sum) apart = sum;
+    }
+    tile->stopped |= bundle_inside(tile, index, &inner, 0x1p-48 * apart);
+    bool changed = false;
+    for (int begin = 0, end; begin < inner.count; begin = end) {
+        int packet = from[begin] / GI_PACKET_SIZE;
+        for (end = begin + 1; end < inner.count && from[end] / GI_PACKET_SIZE == packet;) end++;
+        changed |= bring_home(tile, &inner, from, begin, end);
+    }
+    return changed;
 }
 
 /* ---------------------------------------------------------------- the walk */
@@ -137,6 +265,14 @@ static inline void tile_flush(Tile *tile) {
     bool changed = false;
     for (int i = 0; i < tile->test_count; i++) {
         const Test *test = &tile->tests[i];
+        if (gi_shape_kind(test->shape) == GI_SHAPE_INSTANCE) {
+            int first = i;
+            while (i + 1 < tile->test_count && test[i + 1 - first].shape.bits == test->shape.bits) {
+                i++;
+            }
+            changed |= tile_instance(tile, test, i + 1 - first);
+            continue;
+        }
         unsigned rays = test->rays & tile->alive[test->packet];
         if (rays != 0) changed |= tile_test(tile, test->shape, (int)test->packet, rays);
     }
@@ -146,38 +282,49 @@ static inline void tile_flush(Tile *tile) {
     if (changed && !tile->any) tile_refresh_far(tile);
 }
 
-/* Notes the tests that a block's shapes need. Which shapes, packets and rays these are cannot be
+/* Pairs of one lane of a leaf and a packet. */
+typedef struct Pairs {
+    int count;
+    uint32_t pair[GI_TREE_WIDTH * GI_PACKET_COUNT + 16]; /* lane * GI_PACKET_COUNT + packet */
+} Pairs;
+
+/* Notes the tests that a leaf's shapes need. Which shapes, packets and rays these are cannot be
  * foretold, so each step writes a list without asking, and the next runs down the list: branches
  * that go wrong half of the time would cost more than the work. */
+static inline void tile_pairs(
+    const Tile *tile, const Rectangles *rectangles, unsigned bits, Pairs *pairs) {
+    pairs->count = 0;
+    for (; bits != 0; bits &= bits - 1) {
+        int lane = lowest_bit(bits);
+        for (int first = 0; first < GI_PACKET_COUNT; first += 16) {
+            unsigned packets = tile_overlaps(&tile->packets, rectangles, lane, first);
+            pairs->count += sixteen_append(
+                pairs->pair + pairs->count, packets, (uint32_t)(lane * GI_PACKET_COUNT + first));
+        }
+    }
+}
+
 static inline void tile_block(Tile *tile, uint32_t child) {
-    const GiTree *tree = tile->trace->tree;
-    uint32_t index = child & GI_CHILD_INDEX;
+    const GiTree *tree = tile->tree;
+    uint32_t index = gi_child_index(child);
     Rectangles rectangles;
     const GiShapeRef *shapes;
     unsigned bits;
-    if (child & GI_CHILD_SPHERES) {
+    if (gi_child_kind(child) == GI_CHILD_SPHERES) {
         bits = tile_spheres(&tile->frustum, &tree->sphere_blocks[index], &rectangles);
         shapes = tree->sphere_blocks[index].shape;
     } else {
         bits = tile_boxes(&tile->frustum, &tree->box_blocks[index], &rectangles);
         shapes = tree->box_blocks[index].shape;
     }
-    uint32_t pairs[GI_TREE_WIDTH * GI_PACKET_COUNT + 16];
-    int pair_count = 0;
-    for (; bits != 0; bits &= bits - 1) {
-        int lane = lowest_bit(bits);
-        for (int first = 0; first < GI_PACKET_COUNT; first += 16) {
-            unsigned packets = tile_overlaps(&tile->packets, &rectangles, lane, first);
-            pair_count += sixteen_append(
-                pairs + pair_count, packets, (uint32_t)(lane * GI_PACKET_COUNT + first));
-        }
-    }
+    Pairs pairs;
+    tile_pairs(tile, &rectangles, bits, &pairs);
     int count = tile->test_count;
-    for (int i = 0; i < pair_count; i++) {
-        int lane = (int)(pairs[i] / GI_PACKET_COUNT);
-        uint32_t packet = pairs[i] % GI_PACKET_COUNT;
+    for (int i = 0; i < pairs.count; i++) {
+        int lane = (int)(pairs.pair[i] / GI_PACKET_COUNT);
+        uint32_t packet = pairs.pair[i] % GI_PACKET_COUNT;
         unsigned rays = tile_rays(tile, &rectangles, lane, (int)packet);
-        prefetch_shape(tile->trace->shapes, shapes[lane]);
+        prefetch_shape(tile->shapes, shapes[lane]);
         tile->tests[count] = (Test){shapes[lane], packet, rays};
         count += rays != 0;
     }
@@ -185,29 +332,50 @@ static inline void tile_block(Tile *tile, uint32_t child) {
     if (count >= TEST_BATCH) tile_flush(tile);
 }
 
-static inline void tile_walk(Tile *tile) {
-    const GiTree *tree = tile->trace->tree;
-    int packet_count = (tile->bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
-    for (uint32_t i = 0; i < tree->unbounded_count && !tile->stopped; i++) {
-        tile_count(tile, packet_count);
-        for (int k = 0; k < packet_count; k++) {
-            tile_test(tile, tree->unbounded[i], k, tile->alive[k]);
-        }
+static inline void tile_leaf(Tile *tile, uint32_t child) {
+    Rectangles rectangles;
+    Edges edges;
+    uint32_t first = gi_child_first(child);
+    unsigned bits = tile_triangles(&tile->frustum, &tile->shapes->triangles, first,
+        gi_child_count(child), &rectangles, &edges);
+    Pairs pairs;
+    tile_pairs(tile, &rectangles, bits, &pairs);
+    int count = tile->test_count;
+    for (int i = 0; i < pairs.count; i++) {
+        uint32_t lane = pairs.pair[i] / GI_PACKET_COUNT, packet = pairs.pair[i] % GI_PACKET_COUNT;
+        unsigned rays = tile_rays_inside(tile, &rectangles, &edges, (int)lane, (int)packet);
+        tile->tests[count] = (Test){gi_shape_ref(GI_SHAPE_TRIANGLE, first + lane), packet, rays};
+        count += rays != 0;
     }
-    if (tree->unbounded_count > 0) tile_refresh_far(tile);
+    tile->test_count = count;
+    if (count >= TEST_BATCH) tile_flush(tile);
+}
+
+static inline void tile_walk(Tile *tile) {
+    const GiTree *tree = tile->tree;
+    uint32_t packet_count = (uint32_t)(tile->bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
+    for (uint32_t i = 0; i < tree->unbounded_count && !tile->stopped; i++) {
+        for (uint32_t k = 0; k < packet_count; k++) {
+            tile->tests[tile->test_count++] = (Test){tree->unbounded[i], k, 0xffff};
+        }
+        tile_flush(tile);
+    }
     StackEntry stack[STACK_LIMIT];
     int count = 0;
     if (tree->root != GI_CHILD_NONE) stack[count++] = (StackEntry){tree->root, -INFINITY};
     while (count > 0 && !tile->stopped) {
         StackEntry top = stack[--count];
         if (!(top.enter <= tile->frustum.far)) continue;
-        if (top.child & GI_CHILD_BLOCK) {
-            tile_block(tile, top.child);
-        } else {
+        switch (gi_child_kind(top.child)) {
+        case GI_CHILD_NODE: {
             const GiNode *node = &tree->nodes[top.child];
             float enter[8];
             unsigned bits = tile_node(&tile->frustum, node, enter);
-            count = push_children(tree, stack, count, node->child, bits, enter);
+            count = push_children(tree, tile->shapes, stack, count, node->child, bits, enter);
+            break;
+        }
+        case GI_CHILD_TRIANGLES: tile_leaf(tile, top.child); break;
+        default: tile_block(tile, top.child); break;
         }
     }
     tile_flush(tile);
@@ -227,42 +395,66 @@ static inline GiTraceRay bundle_ray(const GiBundle *bundle, int i) {
 /* Few rays, or rays all round the apex, are better traced one by one. */
 enum { TILE_MINIMUM = 8 };
 
-static inline void bundle_trace(const GiTrace *trace, GiBundle *bundle, bool any) {
-    double toward = any ? -1 : 1;
-    Tile tile;
-    tile.trace = trace;
-    tile.bundle = bundle;
-    tile.any = any;
-    tile.scale = trace->tree->scale;
-    tile.test_count = tile.tests_made = 0;
-    tile.stopped = false;
-    for (int i = 0; i < GI_BUNDLE_SIZE / 32; i++) tile.inverse_known[i] = 0;
-    for (int i = 0; i < GI_BUNDLE_SIZE; i++) {
-        bundle->shape[i] = bundle->instance[i] = GI_SHAPE_NONE;
-    }
-    GiVec u, v, w;
-    if (bundle->count >= TILE_MINIMUM && tile_frame(bundle, toward, &u, &v, &w)) {
-        tile_pad(bundle);
-        if (tile_packets(&tile, toward, u, v, w)) {
-            if (!any) {
-                for (int i = 0; i < GI_BUNDLE_SIZE; i++) bundle->t[i] = bundle->t_max[i];
-            }
-            tile_planes(&tile, u, v, w);
-            tile_walk(&tile);
-            return;
-        }
-    }
+/* For closest, bundle->t says how far each ray looks. */
+static inline void bundle_one_by_one(const Tile *tile) {
+    GiBundle *bundle = tile->bundle;
     for (int i = 0; i < bundle->count; i++) {
         if (i % 16 == 0 && bundle->stop != NULL && bundle->stop(bundle->stop_context)) return;
         GiTraceRay ray = bundle_ray(bundle, i);
-        GiTraceHit hit;
-        if (any ? line_trace(trace, &ray, true, &hit) : line_trace(trace, &ray, false, &hit)) {
-            bundle->shape[i] = any ? 0 : hit.shape.bits;
-            if (any) continue;
-            bundle->t[i] = hit.t;
-            bundle->instance[i] = hit.instance;
+        Line line = line_of(tile->tree, tile->shapes, tile->instance, &ray);
+        GiTraceHit hit = {tile->any ? ray.t_max : bundle->t[i], {GI_SHAPE_NONE}, GI_SHAPE_NONE};
+        if (!(tile->any ? line_walk(&line, true, &hit) : line_walk(&line, false, &hit))) continue;
+        bundle->shape[i] = hit.shape.bits;
+        bundle->instance[i] = hit.instance;
+        if (!tile->any) bundle->t[i] = hit.t;
+    }
+}
+
+static inline void bundle_run(Tile *tile) {
+    GiBundle *bundle = tile->bundle;
+    double toward = tile->any ? -1 : 1;
+    tile->scale = tile->tree->scale;
+    tile->test_count = tile->tests_made = 0;
+    tile->stopped = false;
+    for (int i = 0; i < GI_BUNDLE_SIZE / 32; i++) tile->inverse_known[i] = 0;
+    int end = (bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE * GI_PACKET_SIZE;
+    for (int i = 0; i < end; i++) bundle->shape[i] = bundle->instance[i] = GI_SHAPE_NONE;
+    GiVec u, v, w;
+    if (bundle->count >= TILE_MINIMUM && tile_frame(bundle, toward, &u, &v, &w)) {
+        tile_pad(bundle);
+        if (tile_packets(tile, toward, u, v, w)) {
+            tile_planes(tile, u, v, w);
+            tile_walk(tile);
+            return;
         }
     }
+    bundle_one_by_one(tile);
+}
+
+static bool bundle_inside(const Tile *outer, uint32_t instance, GiBundle *inner, double apart) {
+    Tile tile;
+    tile.tree = outer->shapes->instances[instance].tree;
+    tile.shapes = outer->shapes;
+    tile.instance = instance;
+    tile.apart = apart;
+    tile.bundle = inner;
+    tile.any = outer->any;
+    bundle_run(&tile);
+    return tile.stopped;
+}
+
+static inline void bundle_trace(const GiTrace *trace, GiBundle *bundle, bool any) {
+    Tile tile;
+    tile.tree = trace->tree;
+    tile.shapes = trace->shapes;
+    tile.instance = GI_SHAPE_NONE;
+    tile.apart = 0;
+    tile.bundle = bundle;
+    tile.any = any;
+    if (!any) {
+        for (int i = 0; i < bundle->count; i++) bundle->t[i] = bundle->t_max[i];
+    }
+    bundle_run(&tile);
 }
 
 static void GI_KERNEL(bundle_closest)(const GiTrace *trace, GiBundle *bundle) {

@@ -17,6 +17,7 @@ typedef struct Frustum {
     float axis[3][3]; /* u, v, w as rows */
     float plane[4][3];
     float a0, a1, b0, b1, far;
+    SeenFrom seen; /* triangles, from the apex */
 } Frustum;
 
 /* One shape to be tested against some rays of one packet. */
@@ -30,7 +31,10 @@ typedef struct Test {
 enum { TEST_BATCH = 8, TEST_LIMIT = TEST_BATCH + GI_TREE_WIDTH * GI_PACKET_COUNT };
 
 typedef struct Tile {
-    const GiTrace *trace;
+    const GiTree *tree;
+    const GiShapes *shapes;
+    uint32_t instance; /* whose tree this is, or GI_SHAPE_NONE */
+    double apart;      /* how far from the apex the rays' lines may pass, by rounding */
     GiBundle *bundle;
     bool any;
     unsigned alive[GI_PACKET_COUNT]; /* bits of rays that still look for something */
@@ -64,7 +68,7 @@ static inline void tile_pad(GiBundle *bundle) {
         bundle->dy[i] = bundle->dy[0];
         bundle->dz[i] = bundle->dz[0];
         bundle->t_min[i] = 1;
-        bundle->t_max[i] = 0;
+        bundle->t_max[i] = bundle->t[i] = 0;
         bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
     }
 }
@@ -133,7 +137,7 @@ static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiV
             b1 = R_MAX(b1, b);
             /* Shadow rays end at the apex, so a ray's depth is that of its origin. */
             R reach = depth;
-            if (!tile->any) reach = depth * r_load(bundle->t_max + i);
+            if (!tile->any) reach = depth * r_load(bundle->t + i);
             far = R_MAX(far, reach);
             r_store_floats(tile->a + i, a);
             r_store_floats(tile->b + i, b);
@@ -169,13 +173,14 @@ static inline void frustum_planes(Frustum *frustum) {
 
 static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
     Frustum *frustum = &tile->frustum;
-    const GiTree *tree = tile->trace->tree;
+    const GiTree *tree = tile->tree;
     GiVec apex = gi_scale(gi_sub(tile->bundle->apex, tree->center), tree->scale);
     double largest = fmax(fabs(apex.x), fmax(fabs(apex.y), fabs(apex.z)));
     frustum->apex[0] = (float)apex.x;
     frustum->apex[1] = (float)apex.y;
     frustum->apex[2] = (float)apex.z;
-    frustum->margin = (float)(GI_TREE_GROWTH * largest);
+    frustum->margin = (float)(GI_TREE_GROWTH * largest + tile->apart * tree->scale);
+    seen_from_init(&frustum->seen, tile->bundle->apex, tile->apart, tree->scale);
     const GiVec rows[3] = {u, v, w};
     for (int i = 0; i < 3; i++) {
         frustum->axis[i][0] = (float)rows[i].x;
@@ -301,6 +306,72 @@ static inline unsigned tile_boxes(
     return bits;
 }
 
+/* The edges of eight triangles in the plane of the packets. */
+typedef struct Edges {
+    float x[3][8], y[3][8], z[3][8], slack[8];
+} Edges;
+
+/* The places of corners: (a, b) = (x, y) / depth. A corner r away, in single precision, errs by six
+ * roundings of r in each of x, y and depth, so that with |a|, |b| <= m its place errs by less than
+ * 16 roundings of (1 + m)^2, and by `error` (1 + m) / depth for the apex. */
+static inline unsigned tile_triangles(const Frustum *frustum, const GiTriangles *triangles,
+    uint32_t first, uint32_t count, Rectangles *rectangles, Edges *edges) {
+    float corners[3][3][8];
+    seen_corners(&frustum->seen, triangles, first, count, corners);
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        F a[3], b[3], depth[3], one = f_of(1), most = f_of(0);
+        for (int k = 0; k < 3; k++) {
+            F x = f_load(corners[k][0] + i), y = f_load(corners[k][1] + i),
+              z = f_load(corners[k][2] + i);
+            depth[k] = frame_dot(frustum->axis[2], x, y, z);
+            F inverse = one / depth[k];
+            a[k] = frame_dot(frustum->axis[0], x, y, z) * inverse;
+            b[k] = frame_dot(frustum->axis[1], x, y, z) * inverse;
+            most = f_max(most, f_max(f_size(a[k]), f_size(b[k])));
+        }
+        F nearest = f_min(depth[0], f_min(depth[1], depth[2]));
+        F error = f_of(frustum->seen.error), bigger = one + most;
+        F wider = (f_of(GI_WIDER) * bigger + error / nearest) * bigger;
+        F a0 = f_min(a[0], f_min(a[1], a[2])) - wider, a1 = f_max(a[0], f_max(a[1], a[2])) + wider;
+        F b0 = f_min(b[0], f_min(b[1], b[2])) - wider, b1 = f_max(b[0], f_max(b[1], b[2])) + wider;
+        /* Six roundings of the distance, which is at most (1 + 2 m) times the depth. */
+        F near = nearest - f_of(GI_WIDER) * bigger * nearest - error;
+        f_store(rectangles->a0 + i, a0);
+        f_store(rectangles->a1 + i, a1);
+        f_store(rectangles->b0 + i, b0);
+        f_store(rectangles->b1 + i, b1);
+        f_store(rectangles->near + i, near);
+        F slack = f_of(4) * wider * ((a1 - a0) + (b1 - b0) + wider);
+        f_store(edges->slack + i, slack);
+        for (int k = 0; k < 3; k++) {
+            int next = (k + 1) % 3;
+            F x = b[k] - b[next], y = a[next] - a[k];
+            f_store(edges->x[k] + i, x);
+            f_store(edges->y[k] + i, y);
+            f_store(edges->z[k] + i, f_of(0) - (x * a[k] + y * b[k]));
+        }
+        /* What reaches behind the apex, or is far off to the side, is not in the plane. */
+        unsigned all = (1u << GI_FLOATS) - 1;
+        unsigned whole = f_less_equal(f_of(4) * error, nearest) & f_less_equal(f_of(0), nearest) &
+                         f_less_equal(most, f_of(4096));
+        unsigned in = f_less_equal(a0, f_of(frustum->a1)) & f_less_equal(f_of(frustum->a0), a1) &
+                      f_less_equal(b0, f_of(frustum->b1)) & f_less_equal(f_of(frustum->b0), b1) &
+                      f_less_equal(near, f_of(frustum->far));
+        unsigned around = ~whole & all;
+        for (unsigned rest = around; rest != 0; rest &= rest - 1) {
+            int lane = i + lowest_bit(rest);
+            rectangles->a0[lane] = rectangles->b0[lane] = rectangles->near[lane] = -INFINITY;
+            rectangles->a1[lane] = rectangles->b1[lane] = edges->slack[lane] = INFINITY;
+            for (int k = 0; k < 3; k++) {
+                edges->x[k][lane] = edges->y[k][lane] = edges->z[k][lane] = 0;
+            }
+        }
+        bits |= ((in & whole) | around) << i;
+    }
+    return bits & ((1u << count) - 1);
+}
+
 /* Of the sixteen packets from `first` on, bits of those that the rectangle of one shape overlaps,
  * nearer than they look. */
 static inline unsigned tile_overlaps(
@@ -319,6 +390,18 @@ static inline unsigned tile_rays(const Tile *tile, const Rectangles *shapes, int
            sixteen_up_to(shapes->a1[lane], tile->a + i) &
            sixteen_from(shapes->b0[lane], tile->b + i) &
            sixteen_up_to(shapes->b1[lane], tile->b + i) &
+           sixteen_from(shapes->near[lane], tile->far + i);
+}
+
+/* Bits of the rays of one packet that may be inside of a triangle and end behind its nearest
+ * corner. */
+static inline unsigned tile_rays_inside(
+    const Tile *tile, const Rectangles *shapes, const Edges *edges, int lane, int packet) {
+    int i = packet * GI_PACKET_SIZE;
+    EdgeLines lines = {{edges->x[0][lane], edges->x[1][lane], edges->x[2][lane]},
+        {edges->y[0][lane], edges->y[1][lane], edges->y[2][lane]},
+        {edges->z[0][lane], edges->z[1][lane], edges->z[2][lane]}, edges->slack[lane]};
+    return tile->alive[packet] & sixteen_inside(&lines, tile->a + i, tile->b + i) &
            sixteen_from(shapes->near[lane], tile->far + i);
 }
 

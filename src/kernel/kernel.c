@@ -7,6 +7,8 @@
 #include "shape/hit.h"
 #include "kernel/wide.h"
 
+#include <string.h>
+
 #define GI_KERNEL(name) GI_PASTE(GI_PASTE(gi_##name, _), GI_ISA)
 
 #define GI_HIT(name) gi_wide_##name

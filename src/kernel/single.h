@@ -8,22 +8,80 @@
  * that holds x was grown by 2^-19 |x| or more. The test itself can therefore be the plain one. */
 #pragma once
 
+/* ---------------------------------------------------------------- triangles */
+
+/* The corners of triangles as they are seen from a point: relative to it, scaled to kernel space.
+ * The point is a sum of two floats. A corner minus the first is rounded once, and again with the
+ * second, so that a corner r away errs by 2^-23 |r|, and by `error` for what is lost of the point
+ * and what it is off in the first place. */
+typedef struct SeenFrom {
+    float high[3], low[3], scale, error;
+} SeenFrom;
+
+static inline void seen_from_init(SeenFrom *seen, GiVec point, double error, double scale) {
+    const double p[3] = {point.x, point.y, point.z};
+    for (int axis = 0; axis < 3; axis++) {
+        seen->high[axis] = (float)p[axis];
+        seen->low[axis] = (float)(p[axis] - (double)seen->high[axis]);
+    }
+    seen->scale = (float)scale;
+    seen->error = (float)(error * scale + 0x1p-47 * gi_largest(point) * scale);
+    /* From beyond the range of floats nothing is told apart. */
+    if (!(gi_largest(point) < 1e37)) {
+        for (int axis = 0; axis < 3; axis++) seen->high[axis] = seen->low[axis] = 0;
+        seen->error = INFINITY;
+    }
+}
+
+/* Corner by corner, coordinate by coordinate; lanes from count on repeat the last triangle. */
+static inline void seen_corners(const SeenFrom *seen, const GiTriangles *triangles, uint32_t first,
+    uint32_t count, float corners[3][3][8]) {
+    for (int corner = 0; corner < 3; corner++) {
+        const float *points[8];
+        for (uint32_t i = 0; i < 8; i++) {
+            uint32_t triangle = first + (i < count ? i : count - 1);
+            points[i] = triangles->positions[triangles->corners[triangle][corner]];
+        }
+        eight_points(points, corners[corner]);
+        for (int axis = 0; axis < 3; axis++) {
+            F high = f_of(seen->high[axis]), low = f_of(seen->low[axis]);
+            for (int i = 0; i < 8; i += GI_FLOATS) {
+                F x = f_load(corners[corner][axis] + i);
+                f_store(corners[corner][axis] + i, (x - high - low) * f_of(seen->scale));
+            }
+        }
+    }
+}
+
+static inline F f_size(F a) { return f_max(a, f_of(0) - a); }
+
+/* ---------------------------------------------------------------- the line */
+
 typedef struct Line {
-    const GiTrace *trace;
+    const GiTree *tree;
+    const GiShapes *shapes;
+    uint32_t instance; /* whose tree this is, or GI_SHAPE_NONE */
     gi_hit_Ray ray;
     double t_min, t_max;
-    uint32_t skip;
+    uint32_t skip, skip_instance;
     /* in kernel space, with unit direction */
     float origin[3], direction[3], inverse[3];
     bool negative[3];
     double length, shift; /* parameter in kernel space = t * length - shift */
+    SeenFrom seen;        /* from the same origin */
 } Line;
 
-static inline Line line_of(const GiTrace *trace, const GiTraceRay *r) {
-    Line line = {.trace = trace, .t_min = r->t_min, .t_max = r->t_max, .skip = r->skip};
+static inline Line line_of(
+    const GiTree *tree, const GiShapes *shapes, uint32_t instance, const GiTraceRay *r) {
+    Line line = {.tree = tree,
+        .shapes = shapes,
+        .instance = instance,
+        .t_min = r->t_min,
+        .t_max = r->t_max,
+        .skip = r->skip,
+        .skip_instance = r->skip_instance};
     line.ray = gi_hit_ray(
         r->origin.x, r->origin.y, r->origin.z, r->direction.x, r->direction.y, r->direction.z);
-    const GiTree *tree = trace->tree;
     GiVec o = gi_scale(gi_sub(r->origin, tree->center), tree->scale);
     double length = gi_length(r->direction);
     GiVec d = gi_scale(r->direction, 1 / length);
@@ -39,6 +97,9 @@ static inline Line line_of(const GiTrace *trace, const GiTraceRay *r) {
         line.inverse[axis] = fabs(direction[axis]) < 1e-30 ? 1e30f : (float)(1 / direction[axis]);
         line.negative[axis] = line.inverse[axis] < 0;
     }
+    double lost = 0x1p-47 * gi_largest(tree->center) + 2 * GI_TREE_GROWTH_LEAST / tree->scale;
+    seen_from_init(
+        &line.seen, gi_add(gi_scale(o, 1 / tree->scale), tree->center), lost, tree->scale);
     return line;
 }
 
@@ -91,6 +152,45 @@ static inline unsigned line_spheres(
     return bits;
 }
 
+/* Bits of the triangles that the line may meet: not beyond any edge by more than the corners err.
+ * Where they lie along the line is not looked at. */
+static inline unsigned line_triangles(const Line *line, uint32_t first, uint32_t count) {
+    float corners[3][3][8];
+    seen_corners(&line->seen, &line->shapes->triangles, first, count, corners);
+    /* Sheared along the direction's largest component z, which keeps the errors small. */
+    const float *d = line->direction;
+    int z = fabsf(d[0]) > fabsf(d[1]) ? 0 : 1;
+    if (fabsf(d[2]) > fabsf(d[z])) z = 2;
+    int x = (z + 1) % 3, y = (z + 2) % 3;
+    float shear_x = d[x] / d[z], shear_y = d[y] / d[z];
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        F px[3], py[3], size = f_of(0);
+        for (int k = 0; k < 3; k++) {
+            F rx = f_load(corners[k][x] + i), ry = f_load(corners[k][y] + i),
+              rz = f_load(corners[k][z] + i);
+            px[k] = rx - f_of(shear_x) * rz;
+            py[k] = ry - f_of(shear_y) * rz;
+            size = f_max(size, f_max(f_size(rx), f_max(f_size(ry), f_size(rz))));
+        }
+        /* Each place is a handful of roundings of the corner's distance off. */
+        F error = size * f_of(0x1p-20f) + f_of(line->seen.error);
+        F extent = f_of(0), side[3];
+        for (int k = 0; k < 3; k++) {
+            extent = f_max(extent, f_max(f_size(px[k]), f_size(py[k])));
+            int next = (k + 1) % 3;
+            side[k] = px[k] * py[next] - py[k] * px[next];
+        }
+        F slack = f_of(8) * error * (extent + error);
+        F least = f_min(side[0], f_min(side[1], side[2]));
+        F most = f_max(side[0], f_max(side[1], side[2]));
+        bits |= (f_less_equal(f_of(0) - slack, least) | f_less_equal(most, slack)) << i;
+    }
+    return bits & ((1u << count) - 1);
+}
+
+/* ---------------------------------------------------------------- the walk */
+
 typedef struct StackEntry {
     uint32_t child;
     float enter;
@@ -100,15 +200,27 @@ enum { STACK_LIMIT = GI_TREE_DEPTH_LIMIT * (GI_TREE_WIDTH - 1) + 1 };
 
 /* The bytes of a child are asked for when it is pushed, those of a shape when its box is met: both
  * are far away in large scenes. */
-static inline void prefetch_child(const GiTree *tree, uint32_t child) {
-    uint32_t index = child & GI_CHILD_INDEX;
-    const char *from = (const char *)&tree->nodes[index];
-    size_t size = sizeof(GiNode);
-    if (child & GI_CHILD_BLOCK) {
-        bool spheres = child & GI_CHILD_SPHERES;
-        from = spheres ? (const char *)&tree->sphere_blocks[index]
-                       : (const char *)&tree->box_blocks[index];
-        size = spheres ? sizeof(GiSphereBlock) : sizeof(GiBoxBlock);
+static inline void prefetch_child(const GiTree *tree, const GiShapes *shapes, uint32_t child) {
+    uint32_t index = gi_child_index(child);
+    const char *from;
+    size_t size;
+    switch (gi_child_kind(child)) {
+    case GI_CHILD_NODE:
+        from = (const char *)&tree->nodes[index];
+        size = sizeof *tree->nodes;
+        break;
+    case GI_CHILD_TRIANGLES:
+        from = (const char *)&shapes->triangles.corners[gi_child_first(child)];
+        size = gi_child_count(child) * sizeof *shapes->triangles.corners;
+        break;
+    case GI_CHILD_BOXES:
+        from = (const char *)&tree->box_blocks[index];
+        size = sizeof *tree->box_blocks;
+        break;
+    default:
+        from = (const char *)&tree->sphere_blocks[index];
+        size = sizeof *tree->sphere_blocks;
+        break;
     }
     for (size_t i = 0; i < size; i += 64) prefetch(from + i);
 }
@@ -120,18 +232,19 @@ static inline void prefetch_shape(const GiShapes *shapes, GiShapeRef ref) {
     case GI_SHAPE_BOX: prefetch(&shapes->boxes[i]); break;
     case GI_SHAPE_CONE: prefetch(&shapes->cones[i]); break;
     case GI_SHAPE_PLACED: prefetch(&shapes->placements[i]); break;
+    case GI_SHAPE_INSTANCE: prefetch(&shapes->instances[i]); break;
     default: break;
     }
 }
 
 /* Pushes the children in bits so that the nearest is on top. */
-static inline int push_children(const GiTree *tree, StackEntry *stack, int count,
-    const uint32_t child[8], unsigned bits, const float enter[8]) {
+static inline int push_children(const GiTree *tree, const GiShapes *shapes, StackEntry *stack,
+    int count, const uint32_t child[8], unsigned bits, const float enter[8]) {
     int first = count;
     for (; bits != 0; bits &= bits - 1) {
         int i = lowest_bit(bits);
         StackEntry entry = {child[i], enter[i]};
-        prefetch_child(tree, child[i]);
+        prefetch_child(tree, shapes, child[i]);
         int at = count++;
         for (; at > first && stack[at - 1].enter < entry.enter; at--) stack[at] = stack[at - 1];
         stack[at] = entry;
@@ -139,62 +252,98 @@ static inline int push_children(const GiTree *tree, StackEntry *stack, int count
     return count;
 }
 
-static inline void line_test(const Line *line, GiShapeRef ref, GiTraceHit *best) {
+static bool line_instance(const Line *line, uint32_t index, bool any, GiTraceHit *best);
+
+/* Whether the ray meets the shape. Of hits that are not nearer than the best, none counts. */
+static inline bool line_test(const Line *line, GiShapeRef ref, bool any, GiTraceHit *best) {
     double t;
-    if (ref.bits == line->skip) return;
-    if (!gi_hit_shape(line->trace->shapes, ref, &line->ray, line->t_min, line->t_max, &t)) return;
-    if (t > best->t) return;
-    if (t == best->t && best->shape.bits != GI_SHAPE_NONE &&
-        !gi_shape_before(line->trace->shapes, ref, GI_SHAPE_NONE, best->shape, best->instance)) {
-        return;
+    if (gi_shape_kind(ref) == GI_SHAPE_INSTANCE) {
+        return line_instance(line, gi_shape_index(ref), any, best);
     }
-    best->t = t;
-    best->shape = ref;
+    if (ref.bits == line->skip && line->instance == line->skip_instance) return false;
+    if (!gi_hit_shape(line->shapes, ref, &line->ray, line->t_min, line->t_max, &t)) return false;
+    if (t > best->t) return false;
+    if (t == best->t && best->shape.bits != GI_SHAPE_NONE &&
+        !gi_shape_before(line->shapes, ref, line->instance, best->shape, best->instance)) {
+        return false;
+    }
+    *best = (GiTraceHit){t, ref, line->instance};
+    return true;
 }
 
-static inline bool line_trace(
-    const GiTrace *trace, const GiTraceRay *r, bool any, GiTraceHit *hit) {
-    const GiTree *tree = trace->tree;
-    Line line = line_of(trace, r);
-    GiTraceHit best = {r->t_max, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
+/* Lowers *best, or for `any` returns at the first hit. Returns whether there was one. */
+static inline bool line_walk(const Line *line, bool any, GiTraceHit *best) {
+    const GiTree *tree = line->tree;
+    bool found = false;
     for (uint32_t i = 0; i < tree->unbounded_count; i++) {
-        line_test(&line, tree->unbounded[i], &best);
-        if (any && best.shape.bits != GI_SHAPE_NONE) return true;
+        found |= line_test(line, tree->unbounded[i], any, best);
+        if (any && found) return true;
     }
     StackEntry stack[STACK_LIMIT];
     int count = 0;
-    float from = line_parameter(&line, r->t_min), to = line_parameter(&line, best.t);
+    float from = line_parameter(line, line->t_min), to = line_parameter(line, best->t);
     if (tree->root != GI_CHILD_NONE) stack[count++] = (StackEntry){tree->root, from};
     while (count > 0) {
         StackEntry top = stack[--count];
         if (!(top.enter <= to)) continue;
-        uint32_t index = top.child & GI_CHILD_INDEX;
+        uint32_t index = gi_child_index(top.child), first = 0;
+        const GiShapeRef *shapes = NULL;
         float enter[8];
-        if (!(top.child & GI_CHILD_BLOCK)) {
+        unsigned bits;
+        switch (gi_child_kind(top.child)) {
+        case GI_CHILD_NODE: {
             const GiNode *node = &tree->nodes[index];
-            unsigned bits = line_boxes(&line, node->low, node->high, from, to, enter);
-            count = push_children(tree, stack, count, node->child, bits, enter);
+            bits = line_boxes(line, node->low, node->high, from, to, enter);
+            count = push_children(tree, line->shapes, stack, count, node->child, bits, enter);
             continue;
         }
-        const GiShapeRef *shapes;
-        unsigned bits;
-        if (top.child & GI_CHILD_SPHERES) {
-            const GiSphereBlock *block = &tree->sphere_blocks[index];
-            bits = line_spheres(&line, block, from, to);
-            shapes = block->shape;
-        } else {
+        case GI_CHILD_TRIANGLES:
+            first = gi_child_first(top.child);
+            bits = line_triangles(line, first, gi_child_count(top.child));
+            break;
+        case GI_CHILD_BOXES: {
             const GiBoxBlock *block = &tree->box_blocks[index];
-            bits = line_boxes(&line, block->low, block->high, from, to, enter);
+            bits = line_boxes(line, block->low, block->high, from, to, enter);
             shapes = block->shape;
+            break;
+        }
+        default: {
+            const GiSphereBlock *block = &tree->sphere_blocks[index];
+            bits = line_spheres(line, block, from, to);
+            shapes = block->shape;
+            break;
+        }
         }
         for (; bits != 0; bits &= bits - 1) {
-            line_test(&line, shapes[lowest_bit(bits)], &best);
-            if (any && best.shape.bits != GI_SHAPE_NONE) return true;
+            uint32_t i = (uint32_t)lowest_bit(bits);
+            GiShapeRef ref =
+                shapes != NULL ? shapes[i] : gi_shape_ref(GI_SHAPE_TRIANGLE, first + i);
+            found |= line_test(line, ref, any, best);
+            if (any && found) return true;
         }
-        to = line_parameter(&line, best.t);
+        to = line_parameter(line, best->t);
     }
-    *hit = best;
-    return best.shape.bits != GI_SHAPE_NONE;
+    return found;
+}
+
+/* The same ray in the instance's space, where t is the same; gi_hit_to_object has the same
+ * operations. An instance holds no instances, so there is one step down at most. */
+static bool line_instance(const Line *line, uint32_t index, bool any, GiTraceHit *best) {
+    const GiInstance *instance = &line->shapes->instances[index];
+    const GiAffine *to_object = &line->shapes->transforms[instance->transform].to_object;
+    const gi_hit_Ray *ray = &line->ray;
+    GiTraceRay inner = {gi_affine_point(to_object, gi_vec(ray->ox, ray->oy, ray->oz)),
+        gi_affine_vector(to_object, gi_vec(ray->dx, ray->dy, ray->dz)), line->t_min, line->t_max,
+        line->skip, line->skip_instance};
+    Line line_inside = line_of(instance->tree, line->shapes, index, &inner);
+    return line_walk(&line_inside, any, best);
+}
+
+static inline bool line_trace(
+    const GiTrace *trace, const GiTraceRay *ray, bool any, GiTraceHit *hit) {
+    Line line = line_of(trace->tree, trace->shapes, GI_SHAPE_NONE, ray);
+    *hit = (GiTraceHit){ray->t_max, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
+    return line_walk(&line, any, hit);
 }
 
 static bool GI_KERNEL(closest)(const GiTrace *trace, const GiTraceRay *ray, GiTraceHit *hit) {

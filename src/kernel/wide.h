@@ -129,6 +129,45 @@ static inline unsigned sixteen_up_to(float x, const float p[16]) {
 }
 #endif
 
+/* The lines of a triangle's edges in the plane of the rays: x a + y b + z of one sign inside. */
+typedef struct EdgeLines {
+    float x[3], y[3], z[3], slack;
+} EdgeLines;
+
+/* Bits of those of sixteen points that no edge puts outside, by more than the slack. */
+#if defined(GI_IS_AVX512)
+static inline unsigned sixteen_inside(
+    const EdgeLines *edges, const float a[16], const float b[16]) {
+    __m512 pa = _mm512_loadu_ps(a), pb = _mm512_loadu_ps(b), side[3];
+    for (int i = 0; i < 3; i++) {
+        side[i] = _mm512_fmadd_ps(_mm512_set1_ps(edges->x[i]), pa,
+            _mm512_fmadd_ps(_mm512_set1_ps(edges->y[i]), pb, _mm512_set1_ps(edges->z[i])));
+    }
+    __m512 least = _mm512_min_ps(side[0], _mm512_min_ps(side[1], side[2]));
+    __m512 most = _mm512_max_ps(side[0], _mm512_max_ps(side[1], side[2]));
+    __m512 slack = _mm512_set1_ps(edges->slack);
+    return (unsigned)_mm512_cmp_ps_mask(_mm512_set1_ps(-edges->slack), least, _CMP_LE_OQ) |
+           (unsigned)_mm512_cmp_ps_mask(most, slack, _CMP_LE_OQ);
+}
+#else
+static inline unsigned sixteen_inside(
+    const EdgeLines *edges, const float a[16], const float b[16]) {
+    unsigned bits = 0;
+    for (int i = 0; i < 16; i += GI_FLOATS) {
+        F pa = f_load(a + i), pb = f_load(b + i), side[3];
+        for (int k = 0; k < 3; k++) {
+            side[k] =
+                f_fused(f_of(edges->x[k]), pa, f_fused(f_of(edges->y[k]), pb, f_of(edges->z[k])));
+        }
+        F least = f_min(side[0], f_min(side[1], side[2]));
+        F most = f_max(side[0], f_max(side[1], side[2]));
+        bits |= (f_less_equal(f_of(-edges->slack), least) | f_less_equal(most, f_of(edges->slack)))
+                << i;
+    }
+    return bits;
+}
+#endif
+
 /* Bits of those of sixteen that equal value. */
 static inline unsigned sixteen_equal(uint32_t value, const uint32_t p[16]) {
 #if defined(GI_IS_AVX512)
@@ -158,6 +197,28 @@ static inline int sixteen_append(uint32_t *to, unsigned bits, uint32_t base) {
     return count;
 #endif
 }
+
+/* Eight points, coordinate by coordinate. A fourth number behind each point is read, not used. */
+#if defined(GI_IS_AVX512) || defined(GI_IS_AVX2)
+static inline void eight_points(const float *const points[8], float xyz[3][8]) {
+    __m256 row[4];
+    for (int i = 0; i < 4; i++) {
+        row[i] = _mm256_insertf128_ps(
+            _mm256_castps128_ps256(_mm_loadu_ps(points[i])), _mm_loadu_ps(points[i + 4]), 1);
+    }
+    __m256 xy01 = _mm256_unpacklo_ps(row[0], row[1]), xy23 = _mm256_unpacklo_ps(row[2], row[3]);
+    __m256 z01 = _mm256_unpackhi_ps(row[0], row[1]), z23 = _mm256_unpackhi_ps(row[2], row[3]);
+    _mm256_storeu_ps(xyz[0], _mm256_shuffle_ps(xy01, xy23, 0x44));
+    _mm256_storeu_ps(xyz[1], _mm256_shuffle_ps(xy01, xy23, 0xee));
+    _mm256_storeu_ps(xyz[2], _mm256_shuffle_ps(z01, z23, 0x44));
+}
+#else
+static inline void eight_points(const float *const points[8], float xyz[3][8]) {
+    for (int i = 0; i < 8; i++) {
+        for (int axis = 0; axis < 3; axis++) xyz[axis][i] = points[i][axis];
+    }
+}
+#endif
 
 /* ---------------------------------------------------------------- doubles: deciding */
 

@@ -4,6 +4,8 @@
  * then whole numbers of any length tell on which side of the middle the decimal number is. */
 #include "mesh/decimal.h"
 
+#include "mesh/digits.h"
+
 #include <math.h> /* INFINITY */
 #include <stdbool.h>
 #include <stddef.h>
@@ -22,8 +24,6 @@ static const double powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9
     1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 enum { POWER_LIMIT = 22, CERTAIN_DIGITS = 18 };
-
-static bool is_digit(char c) { return (unsigned char)(c - '0') <= 9; }
 
 static uint64_t bits_of(double value) {
     uint64_t bits;
@@ -140,9 +140,9 @@ static const char *read_exponent(const char *p, const char *end, int64_t *expone
     const char *q = p + 1;
     bool minus = q < end && *q == '-';
     if (q < end && (*q == '-' || *q == '+')) q++;
-    if (q == end || !is_digit(*q)) return p;
+    if (q == end || !gi_is_digit(*q)) return p;
     int64_t value = 0;
-    for (; q < end && is_digit(*q); q++) {
+    for (; q < end && gi_is_digit(*q); q++) {
         if (value < INT64_C(1) << 59) value = value * 10 + (*q - '0');
     }
     *exponent += minus ? -value : value;
@@ -158,7 +158,7 @@ static const char *read_any(const char *p, const char *end, float *value) {
             point = p;
             continue;
         }
-        if (!is_digit(*p)) break;
+        if (!gi_is_digit(*p)) break;
         if (decimal.digits == NULL) {
             if (*p == '0') {
                 decimal.exponent -= point != NULL;
@@ -178,24 +178,17 @@ static const char *read_any(const char *p, const char *end, float *value) {
     return p;
 }
 
-static inline const char *read_digits(const char *p, const char *end, uint64_t *value) {
-    uint64_t digits = *value;
-    for (; p < end && is_digit(*p); p++) digits = digits * 10 + (uint64_t)(*p - '0');
-    *value = digits;
-    return p;
-}
-
 const char *gi_decimal_read(const char *text, const char *end, float *value) {
     const char *p = text;
     bool negative = p < end && *p == '-';
     if (p < end && (*p == '-' || *p == '+')) p++;
     const char *first = p;
     uint64_t digits = 0; /* wraps when there are too many, which is found out below */
-    p = read_digits(p, end, &digits);
+    p = gi_digits_read(p, end, &digits);
     ptrdiff_t count = p - first, decimals = 0;
     if (p < end && *p == '.') {
         const char *point = p + 1;
-        p = read_digits(point, end, &digits);
+        p = gi_digits_read(point, end, &digits);
         decimals = p - point;
         count += decimals;
     }

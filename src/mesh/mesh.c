@@ -10,7 +10,7 @@
 
 enum {
     CHUNK_SIZE = 256 * 1024, /* small enough to ask the monitor often, large enough to be cheap */
-    PARALLEL_SIZE = 4 * 1024 * 1024 /* below it threads would take longer to start than to help */
+    THREAD_SIZE = 2 * 1024 * 1024 /* with less to do a thread takes longer to start than to help */
 };
 
 /* ---------------------------------------------------------------- store */
@@ -210,7 +210,9 @@ static GlintStatus read_source(GiMeshStore *store, GiMemory *memory, const GiMes
         .file = file};
     int thread_count = source->thread_count;
     if (thread_count <= 0) thread_count = gi_machine_core_count();
-    if (source->chunk_size == 0 && source->size < PARALLEL_SIZE) thread_count = 1;
+    if (source->chunk_size == 0 && source->size / THREAD_SIZE < (size_t)thread_count) {
+        thread_count = (int)(source->size / THREAD_SIZE);
+    }
     GlintStatus status = GLINT_OK;
     if (thread_count > 1) status = gi_pool_create(memory, thread_count, &input.pool);
     if (status != GLINT_OK) return gi_mesh_fault(fault, status, "%s", glint_status_text(status));

@@ -6,6 +6,7 @@
  * Most files give a corner one index for position, normal and texcoord; such need no corners of
  * their own for the latter. Whether that is so is known at the end only: it is guessed before the
  * second pass, and where the guess was wrong the pass is repeated with room for those corners. */
+#include "mesh/digits.h"
 #include "mesh/input.h"
 
 #include <string.h>
@@ -74,6 +75,7 @@ static bool is_border(const GiMeshInput *input, const char *p) {
 
 /* From within a line to the beginning of the next. */
 static inline const char *skip_line(const char *p, const char *end) {
+    if (p < end && *p == '\n') return p + 1;
     const char *text = p;
     do p = after_newline(p, end);
     while (p < end && !begins_line(text, p));
@@ -234,8 +236,8 @@ static bool read_numbers(Parser *parser, int wanted, int fewest, int most, float
     }
     parser->p = p;
     if (count >= fewest) return true;
-    return gi_mesh_refuse(
-        parser->input, parser->worker, p, "expected %d numbers, found %d", fewest, count);
+    return gi_mesh_refuse(parser->input, parser->worker, p, "expected %d number%s, found %d",
+        fewest, fewest == 1 ? "" : "s", count);
 }
 
 /* One index, which counts from 1, or from the end of what there is so far when negative. */
@@ -244,11 +246,11 @@ static bool read_index(
     const char *p = parser->p, *first = p;
     bool negative = p < parser->end && *p == '-';
     p += negative;
+    const char *digits = p;
     uint64_t value = 0;
-    for (; p < parser->end && (unsigned char)(*p - '0') <= 9; p++) {
-        if (value < INT64_MAX / 20) value = value * 10 + (uint64_t)(*p - '0');
-    }
-    if (p == first + negative) {
+    p = gi_digits_read(p, parser->end, &value);
+    if (p - digits > 18) value = INT64_MAX; /* it may have wrapped */
+    if (p == digits) {
         return gi_mesh_refuse(parser->input, parser->worker, first,
             "face corner %d: expected a number, found \"%s\"", number,
             gi_mesh_quote(first, parser->end).text);

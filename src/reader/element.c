@@ -78,7 +78,7 @@ const GiElement gi_elements[] = {
     ROW("normal", FLAT, VECTOR, NORMAL, "0 0 1", GI_CHECK_LENGTH,
         .help = "vector at right angles to the surface"),
     ROW("data", GI_IN_MESH, STRING, DATA, NULL, .required = true,
-        .help = "the file of the mesh, .obj or .msh"),
+        .help = "the file of the mesh, .obj, .msh or .ply"),
     ROW("translate", GI_IN_GROUP, VECTOR, TRANSLATE, NULL, .help = "moves the group"),
     ROW("rotate", GI_IN_GROUP, VECTOR, ROTATE, NULL,
         .help = "turns the group by degrees about x, then y, then z"),

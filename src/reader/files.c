@@ -117,7 +117,8 @@ typedef struct NearMiss {
 
 static bool offer_name(void *user, const char *name) {
     NearMiss *near = user;
-    if (name[0] == '.' || strlen(name) >= sizeof near->best) return near->left-- > 0;
+    bool same = strcmp(name, near->suggestion.word) == 0; /* a folder, or no use here */
+    if (same || name[0] == '.' || strlen(name) >= sizeof near->best) return near->left-- > 0;
     gi_suggestion_offer(&near->suggestion, name);
     if (near->suggestion.best == name) {
         memcpy(near->best, name, strlen(name) + 1);

@@ -330,8 +330,8 @@ static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attrib
         frame->type = gi_type_find(suggestion.best, kind);
         return;
     }
-    gi_report_add(
-        &reader->report, place, length, "unknown %s type \"%s\": there are %s", noun, quote, list);
+    gi_report_add(&reader->report, place, length, "unknown %s type \"%s\": there %s %s", noun,
+        quote, strstr(list, " or ") != NULL ? "are" : "is", list);
 }
 
 /* Whether a surface that is still open has the name. */

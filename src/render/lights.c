@@ -188,7 +188,7 @@ static bool directional_beam(const GiStage *stage, const GiLight *light, int i, 
 /* One point of the rectangle, drawn anew for every point of a surface. */
 static bool rectangle_beam(const GiStage *stage, size_t index, int i, Beam *beam) {
     const GiWorld *world = stage->world;
-    const GiLightRectangle *rectangle = &world->rectangles.data[index];
+    const GiLightRectangle *rectangle = &world->lights.data[index];
     GiVec from = point_at(&stage->scratch->points, i), to;
     double u[2];
     draw_pair(stage, i, GI_PURPOSE_LIGHT + (uint32_t)index, u);

@@ -36,8 +36,8 @@ static void take_place(void *context, GiShapeRef *ref) {
 }
 
 /* data: the array of one kind, of `size` bytes a shape; its capacity is capacity. */
-static void reorder_kind(GiScene *scene, GiTreeStore *store, GiPlacement *placements,
-    size_t placement_count, GiShapeKind kind, void **data, size_t capacity, size_t size) {
+static void reorder_kind(
+    GiScene *scene, GiWorld *world, GiShapeKind kind, void **data, size_t capacity, size_t size) {
     GiMemory *memory = scene->memory;
     GiShapeInfos *infos = &scene->info[kind];
     size_t count = infos->count;
@@ -51,7 +51,10 @@ static void reorder_kind(GiScene *scene, GiTreeStore *store, GiPlacement *placem
     void *shapes = gi_memory_allocate(memory, capacity * size);
     GiShapeInfo *info = gi_memory_allocate(memory, infos->capacity * sizeof *info);
     if (shapes != NULL && info != NULL) {
-        visit_blocks(store, kind, take_place, &order);
+        visit_blocks(&world->store, kind, take_place, &order);
+        for (size_t i = 0; i < world->inner_count; i++) {
+            visit_blocks(&world->inner[i], kind, take_place, &order);
+        }
         for (size_t i = 0; i < count; i++) {
             if (order.place[i] == GI_SHAPE_NONE) order.place[i] = order.next++;
         }
@@ -59,8 +62,8 @@ static void reorder_kind(GiScene *scene, GiTreeStore *store, GiPlacement *placem
             memcpy((char *)shapes + order.place[i] * size, (const char *)*data + i * size, size);
             info[order.place[i]] = infos->data[i];
         }
-        for (size_t i = 0; i < placement_count; i++) {
-            GiShapeRef *ref = &placements[i].shape;
+        for (size_t i = 0; i < world->spread.placements.count; i++) {
+            GiShapeRef *ref = &world->spread.placements.data[i].shape;
             if (gi_shape_kind(*ref) != kind) continue;
             *ref = gi_shape_ref(kind, order.place[gi_shape_index(*ref)]);
         }
@@ -77,13 +80,58 @@ static void reorder_kind(GiScene *scene, GiTreeStore *store, GiPlacement *placem
 }
 
 #define REORDER(kind, array)                                                                       \
-    reorder_kind(scene, store, placements, placement_count, kind, (void **)&(array).data,          \
-        (array).capacity, sizeof *(array).data)
+    reorder_kind(scene, world, kind, (void **)&(array).data, (array).capacity, sizeof *(array).data)
 
-void gi_reorder(
-    GiScene *scene, GiTreeStore *store, GiPlacement *placements, size_t placement_count) {
+void gi_reorder(GiScene *scene, GiWorld *world) {
     REORDER(GI_SHAPE_SPHERE, scene->spheres);
     REORDER(GI_SHAPE_BOX, scene->boxes);
     REORDER(GI_SHAPE_CONE, scene->cones);
     REORDER(GI_SHAPE_DISC, scene->discs);
+}
+
+/* ---------------------------------------------------------------- triangles */
+
+/* Those without a place (there are few: triangles without area, or all when the mesh is nowhere)
+ * get the places behind the others. */
+static bool place_rest(GiMemory *memory, const GiMesh *mesh, uint32_t *original, uint32_t placed) {
+    uint32_t count = mesh->triangle_count;
+    if (placed == count) return true;
+    bool *seen = gi_memory_allocate(memory, count);
+    if (seen == NULL) return false;
+    memset(seen, 0, count);
+    for (uint32_t i = 0; i < placed; i++) seen[original[i] - mesh->first_triangle] = true;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!seen[i]) original[placed++] = mesh->first_triangle + i;
+    }
+    gi_memory_free(memory, seen, count);
+    return true;
+}
+
+/* Rows of a mesh's triangles, row 0 that of the triangle `first`. */
+static bool move_rows(GiMemory *memory, uint32_t (*rows)[3], const uint32_t *original,
+    uint32_t first, uint32_t count) {
+    if (rows == NULL || count == 0) return true;
+    size_t size = count * sizeof *rows;
+    uint32_t(*old)[3] = gi_memory_allocate(memory, size);
+    if (old == NULL) return false;
+    memcpy(old, rows, size);
+    for (uint32_t i = 0; i < count; i++) memcpy(rows[i], old[original[i] - first], sizeof *rows);
+    gi_memory_free(memory, old, size);
+    return true;
+}
+
+bool gi_reorder_triangles(GiScene *scene, uint32_t *original, const uint32_t *placed) {
+    GiMemory *memory = scene->memory;
+    for (size_t i = 0; i < scene->meshes.meshes.count; i++) {
+        const GiMesh *mesh = &scene->meshes.meshes.data[i];
+        uint32_t first = mesh->first_triangle, count = mesh->triangle_count;
+        uint32_t *order = original + first;
+        if (!place_rest(memory, mesh, order, placed[i]) ||
+            !move_rows(memory, scene->meshes.corners.data + first, order, first, count) ||
+            !move_rows(memory, mesh->normal_corners, order, first, count) ||
+            !move_rows(memory, mesh->texcoord_corners, order, first, count)) {
+            return false;
+        }
+    }
+    return true;
 }

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * Puts the shapes of a committed scene into the order in which the tree's blocks name them. */
+ * Puts the shapes of a committed scene into the order in which the trees' leaves name them. */
 #pragma once
 
-#include "accel/tree.h"
-#include "scene/scene.h"
+#include "render/world.h"
 
 /* Moves shapes that stand in one block next to each other, so that rays find them in few cache
  * lines, and changes the refs of blocks and placements accordingly. A shape keeps its document
  * order. Short of memory, a kind stays as it is: only speed is lost. */
-void gi_reorder(
-    GiScene *scene, GiTreeStore *store, GiPlacement *placements, size_t placement_count);
+void gi_reorder(GiScene *scene, GiWorld *world);
+
+/* Brings the triangles of every mesh to the places that the trees have given them (accel/tree.h),
+ * and those without a place behind them. This is not a choice: the trees speak of the new places.
+ * False when memory is short. */
+bool gi_reorder_triangles(GiScene *scene, uint32_t *original, const uint32_t *placed);

@@ -83,9 +83,10 @@ static inline GiVec shine_of(const GiStage *stage, const GiShader *shader, GiVec
 
 /* A visible rectangle light shines from its front and is black behind. */
 static GiVec rectangle_emission(
-    const GiStage *stage, const GiFlight *flight, const Met *met, uint32_t light_index) {
+    const GiStage *stage, const GiFlight *flight, const Met *met) {
     const GiWorld *world = stage->world;
-    const GiLightRectangle *rectangle = &world->rectangles.data[light_index];
+    uint32_t light_index = gi_shape_info(&world->shapes, met->shape, met->instance)->shader;
+    const GiLightRectangle *rectangle = &world->lights.data[light_index];
     GiVec offset = gi_scale(met->direction, met->t);
     double density = gi_rectangle_density(rectangle, offset);
     if (!(density > 0) || !gi_stage_draws(stage, (int)light_index)) return gi_vec(0, 0, 0);
@@ -336,7 +337,7 @@ void gi_surface_bundle(const GiStage *stage, const uint32_t *pixels) {
         if (gi_shape_kind(shape) == GI_SHAPE_RECTANGLE) {
             Met met = met_of_bundle(bundle, i, pixels[i]);
             scratch->color[pixels[i]] =
-                rectangle_emission(stage, NULL, &met, gi_shape_index(shape));
+                rectangle_emission(stage, NULL, &met);
             continue;
         }
         uint32_t shader = gi_shape_info(&world->shapes, shape, bundle->instance[i])->shader;
@@ -370,7 +371,7 @@ void gi_surface_flight(const GiStage *stage, const GiFlight *flight, const GiTra
         {(int)flight->level, flight->weight, flight->inside}, hit->shape, hit->instance,
         flight->pixel};
     if (gi_shape_kind(hit->shape) == GI_SHAPE_RECTANGLE) {
-        GiVec light = rectangle_emission(stage, flight, &met, gi_shape_index(hit->shape));
+        GiVec light = rectangle_emission(stage, flight, &met);
         *color = gi_add(*color, gi_multiply(flight->factor, light));
         return;
     }

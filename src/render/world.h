@@ -7,6 +7,7 @@
 #include "kernel/kernel.h"
 #include "light/environment.h"
 #include "light/rectangle.h"
+#include "render/spread.h"
 #include "scene/scene.h"
 
 typedef struct GiWorld {
@@ -15,21 +16,24 @@ typedef struct GiWorld {
     const GiKernel *kernel;
     GiShapes shapes;
     GiTreeStore store;
+    GiTreeStore *inner; /* trees of what instances share */
+    size_t inner_count;
     GiTrace trace;
     GiView view;
     double eye_error; /* camera rays begin here, past a surface that the eye lies on */
-    GI_ARRAY(GiLightRectangle) rectangles; /* an entry for every light; those of rectangles count */
+    size_t primitive_count, node_count, leaf_count, tree_bytes; /* of all trees */
+    GiSpread spread;    /* its lists are empty again once the trees stand */
+    uint32_t *original; /* of triangles, see GiTriangles */
+    size_t original_count;
+    GI_ARRAY(GiRectangle) rectangles; /* lights that can be seen; their info.shader is the light */
+    GI_ARRAY(GiLightRectangle) lights; /* an entry for every light; those of rectangles count */
     GiEnvironmentSampler sky;
     bool sky_lights;       /* the environment lights surfaces */
     bool has_large_lights; /* that can be found by chance: the sky or a visible rectangle */
-    size_t primitive_count;
-    GI_ARRAY(GiShapeRef) refs; /* groups spread out; empty again once the tree stands */
-    GI_ARRAY(GiPlacement) placements;
-    GI_ARRAY(GiTransform) transforms;
 } GiWorld;
 
-/* Spreads out the groups and builds the tree. The scene must have a camera, an image and a dialect,
- * and stay as it is while the world lives; its lists of children are released. *world is
+/* Spreads out the groups and builds the trees. The scene must have a camera, an image and a
+ * dialect, and stay as it is while the world lives; its lists of children are released. *world is
  * zeroed first; on failure it can be reset. Errors: SCENE, MEMORY, CANCELLED. */
 GlintStatus gi_world_commit(GiWorld *world, GiScene *scene, const GiKernel *kernel, GiPool *pool,
     const GlintMonitor *monitor, GlintError *error);

@@ -205,9 +205,32 @@ bool gi_scene_add_matrix(GiScene *scene, uint32_t group, const GiAffine *matrix)
 }
 
 bool gi_scene_place(GiScene *scene, uint32_t group, GiShapeRef ref) {
-    return group == GI_SHAPE_NONE
-               ? gi_array_push(scene->memory, &scene->roots, ref)
-               : gi_array_push(scene->memory, &scene->groups.data[group].children, ref);
+    if (group == GI_SHAPE_NONE) return gi_array_push(scene->memory, &scene->roots, ref);
+    GiGroup *parent = &scene->groups.data[group];
+    parent->nests |= gi_shape_kind(ref) == GI_SHAPE_GROUP;
+    return gi_array_push(scene->memory, &parent->children, ref);
+}
+
+bool gi_scene_group_contains(const GiScene *scene, uint32_t group, uint32_t inner, bool *contains) {
+    size_t count = scene->groups.count;
+    GI_ARRAY(uint32_t) found = {0}; /* each group once, in the order in which they are met */
+    uint8_t *seen = gi_memory_allocate(scene->memory, count);
+    bool good = seen != NULL && gi_array_push(scene->memory, &found, group);
+    if (good) memset(seen, 0, count);
+    *contains = group == inner;
+    for (size_t i = 0; good && !*contains && i < found.count; i++) {
+        const GiGroup *next = &scene->groups.data[found.data[i]];
+        for (size_t k = 0; good && next->nests && k < next->children.count; k++) {
+            uint32_t child = gi_shape_index(next->children.data[k]);
+            if (gi_shape_kind(next->children.data[k]) != GI_SHAPE_GROUP || seen[child]) continue;
+            seen[child] = 1;
+            *contains |= child == inner;
+            good = gi_array_push(scene->memory, &found, child);
+        }
+    }
+    gi_array_free(scene->memory, &found);
+    gi_memory_free(scene->memory, seen, count);
+    return good;
 }
 
 bool gi_scene_group_matrix(

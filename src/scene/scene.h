@@ -73,6 +73,7 @@ typedef struct GiTransformStep {
 typedef struct GiGroup {
     GI_ARRAY(GiTransformStep) steps;
     GI_ARRAY(GiShapeRef) children;
+    bool nests; /* some child is a group */
 } GiGroup;
 
 typedef GI_ARRAY(GiShapeInfo) GiShapeInfos;
@@ -153,9 +154,12 @@ bool gi_scene_add_matrix(GiScene *scene, uint32_t group, const GiAffine *matrix)
 
 /* Places a shape or group in a group (its index), or directly in the scene (GI_SHAPE_NONE). The
  * same ref may be placed any number of times. The caller sees to it that no group contains itself:
- * the reader places a group when it has been closed, the public calls only give new surfaces a
- * parent. */
+ * the reader places a group when it has been closed, the public calls ask
+ * gi_scene_group_contains. */
 bool gi_scene_place(GiScene *scene, uint32_t group, GiShapeRef ref);
+
+/* Whether a group is the inner one or contains it, at any depth. False when memory is short. */
+bool gi_scene_group_contains(const GiScene *scene, uint32_t group, uint32_t inner, bool *contains);
 
 /* The matrix of a group's steps under the rules. False when it is singular or not finite. */
 bool gi_scene_group_matrix(

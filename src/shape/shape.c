@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "shape/shape.h"
 
+#include "math/elementary.h"
 #include "shape/hit.h"
 
 /* ---------------------------------------------------------------- bounds */
@@ -24,6 +25,37 @@ static GiBox disc_bounds(const GiDisc *disc) {
     return (GiBox){gi_sub(disc->center, reach), gi_add(disc->center, reach)};
 }
 
+static GiBox rectangle_bounds(const GiRectangle *rectangle) {
+    GiVec a = rectangle->across, b = rectangle->up;
+    GiVec reach = gi_vec(fabs(a.x) + fabs(b.x), fabs(a.y) + fabs(b.y), fabs(a.z) + fabs(b.z));
+    return (GiBox){gi_sub(rectangle->center, reach), gi_add(rectangle->center, reach)};
+}
+
+static GiVec corner_vec(const float p[3]) { return gi_vec(p[0], p[1], p[2]); }
+
+/* Not normalized; zero when the triangle has no area. */
+static GiVec triangle_normal(const float *const corners[3]) {
+    GiVec a = corner_vec(corners[0]);
+    return gi_cross(gi_sub(corner_vec(corners[1]), a), gi_sub(corner_vec(corners[2]), a));
+}
+
+static GiBox triangle_bounds(const GiTriangles *triangles, uint32_t triangle) {
+    const float *corners[3];
+    gi_triangle_corners(triangles, triangle, corners);
+    if (gi_vec_is_zero(triangle_normal(corners))) {
+        return (GiBox){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    }
+    GiBox box = {corner_vec(corners[0]), corner_vec(corners[0])};
+    for (int i = 1; i < 3; i++) {
+        GiVec p = corner_vec(corners[i]);
+        box.low = gi_vec(gi_hit_minimum(box.low.x, p.x), gi_hit_minimum(box.low.y, p.y),
+            gi_hit_minimum(box.low.z, p.z));
+        box.high = gi_vec(gi_hit_maximum(box.high.x, p.x), gi_hit_maximum(box.high.y, p.y),
+            gi_hit_maximum(box.high.z, p.z));
+    }
+    return box;
+}
+
 static GiBox unplaced_bounds(const GiShapes *shapes, GiShapeRef ref) {
     uint32_t i = gi_shape_index(ref);
     switch (gi_shape_kind(ref)) {
@@ -35,8 +67,16 @@ static GiBox unplaced_bounds(const GiShapes *shapes, GiShapeRef ref) {
     case GI_SHAPE_BOX: return shapes->boxes[i];
     case GI_SHAPE_CONE: return cone_bounds(&shapes->cones[i]);
     case GI_SHAPE_DISC: return disc_bounds(&shapes->discs[i]);
+    case GI_SHAPE_RECTANGLE: return rectangle_bounds(&shapes->rectangles[i]);
+    case GI_SHAPE_TRIANGLE: return triangle_bounds(&shapes->triangles, i);
     default: return (GiBox){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
     }
+}
+
+/* Not of what is empty or without bounds. */
+static bool box_is_finite(const GiBox *box) {
+    return isfinite(box->low.x + box->low.y + box->low.z) &&
+           isfinite(box->high.x + box->high.y + box->high.z);
 }
 
 /* The box round a transformed box: of every row, each term takes its smaller or larger end. */
@@ -64,8 +104,12 @@ static GiBox transform_sphere(const GiAffine *a, const GiSphere *sphere) {
     return (GiBox){gi_sub(center, reach), gi_add(center, reach)};
 }
 
-GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref, uint32_t instance) {
-    (void)instance;
+static GiBox bounds_outside(const GiShapes *shapes, GiShapeRef ref) {
+    if (gi_shape_kind(ref) == GI_SHAPE_INSTANCE) {
+        const GiInstance *instance = &shapes->instances[gi_shape_index(ref)];
+        if (!box_is_finite(instance->bounds)) return *instance->bounds;
+        return transform_box(&shapes->transforms[instance->transform].to_world, instance->bounds);
+    }
     if (gi_shape_kind(ref) != GI_SHAPE_PLACED) return unplaced_bounds(shapes, ref);
     const GiPlacement *placement = &shapes->placements[gi_shape_index(ref)];
     const GiAffine *to_world = &shapes->transforms[placement->transform].to_world;
@@ -77,6 +121,13 @@ GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref, uint32_t instance)
     }
     GiBox box = unplaced_bounds(shapes, placement->shape);
     return transform_box(to_world, &box);
+}
+
+GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref, uint32_t instance) {
+    GiBox box = bounds_outside(shapes, ref);
+    if (instance == GI_SHAPE_NONE || !box_is_finite(&box)) return box;
+    const GiInstance *in = &shapes->instances[instance];
+    return transform_box(&shapes->transforms[in->transform].to_world, &box);
 }
 
 /* ---------------------------------------------------------------- point and normal */
@@ -140,6 +191,46 @@ static GiSurfacePoint flat_point(GiVec point, GiVec normal, GiVec p) {
         gi_largest(gi_sub(p, point)));
 }
 
+/* A row of corner indices into the normals or texture coordinates; false: there is none. */
+static bool corner_row(const uint32_t (*rows)[3], uint32_t first, const GiMesh *mesh,
+    const GiTriangles *triangles, uint32_t triangle, uint32_t row[3]) {
+    for (int i = 0; i < 3; i++) {
+        row[i] = rows != NULL ? rows[triangle - mesh->first_triangle][i]
+                              : triangles->corners[triangle][i] - mesh->first_position + first;
+    }
+    return row[0] != GI_SHAPE_NONE;
+}
+
+static GiSurfacePoint triangle_point(
+    const GiShapes *shapes, uint32_t triangle, const gi_hit_Ray *ray) {
+    const GiTriangles *triangles = &shapes->triangles;
+    const float *corners[3];
+    gi_triangle_corners(triangles, triangle, corners);
+    gi_hit_Weights weights = gi_hit_weights(triangles, triangle, ray);
+    double sum = weights.u + weights.v + weights.w;
+    const double part[3] = {weights.u / sum, weights.v / sum, weights.w / sum};
+    GiVec p = {0, 0, 0};
+    double size = 0;
+    for (int i = 0; i < 3; i++) {
+        GiVec corner = corner_vec(corners[i]);
+        p = gi_along(p, corner, part[i]);
+        size = fmax(size, gi_largest(corner));
+    }
+    GiVec geometric = gi_normalize(triangle_normal(corners));
+    GiSurfacePoint at = facing(p, geometric, size);
+    const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, triangle)];
+    uint32_t row[3];
+    if (mesh->smooth && corner_row((const uint32_t(*)[3])mesh->normal_corners, mesh->first_normal,
+                            mesh, triangles, triangle, row)) {
+        GiVec blend = {0, 0, 0};
+        for (int i = 0; i < 3; i++) {
+            blend = gi_along(blend, corner_vec(triangles->normals[row[i]]), part[i]);
+        }
+        if (!gi_vec_is_zero(blend)) at.normal = gi_normalize(blend);
+    }
+    return at;
+}
+
 /* error: the size of the numbers beside the point's own. */
 static GiSurfacePoint unplaced_point(const GiShapes *shapes, GiShapeRef ref, GiVec origin,
     GiVec direction, double t, bool second_nappe_geometric) {
@@ -152,6 +243,9 @@ static GiSurfacePoint unplaced_point(const GiShapes *shapes, GiShapeRef ref, GiV
     case GI_SHAPE_BOX: return box_point(&shapes->boxes[i], &ray, p, t);
     case GI_SHAPE_CONE: return cone_point(&shapes->cones[i], &ray, p, t, second_nappe_geometric);
     case GI_SHAPE_DISC: return flat_point(shapes->discs[i].center, shapes->discs[i].normal, p);
+    case GI_SHAPE_RECTANGLE:
+        return flat_point(shapes->rectangles[i].center, shapes->rectangles[i].normal, p);
+    case GI_SHAPE_TRIANGLE: return triangle_point(shapes, i, &ray);
     default: return flat_point(shapes->planes[i].point, shapes->planes[i].normal, p);
     }
 }
@@ -169,38 +263,97 @@ static double offset_of(const GiAffine *a) {
     return fmax(fabs(a->m[0][3]), fmax(fabs(a->m[1][3]), fabs(a->m[2][3])));
 }
 
+/* The same operations as gi_hit_to_object, so that t fits to the bit. */
+static void enter(const GiTransform *transform, GiVec *origin, GiVec *direction) {
+    *origin = gi_affine_point(&transform->to_object, *origin);
+    *direction = gi_affine_vector(&transform->to_object, *direction);
+}
+
+/* Out of the space of a placed shape or an instance. at->error is still the size of the numbers the
+ * point is made of: those in object space are stretched by the transform, those of the way there
+ * shrunk and stretched again; the product of the two norms bounds both. */
+static void leave(const GiTransform *transform, GiSurfacePoint *at) {
+    const GiAffine *to_world = &transform->to_world, *to_object = &transform->to_object;
+    double size = at->error * norm(to_world);
+    at->point = gi_affine_point(to_world, at->point);
+    double there = (gi_largest(at->point) + offset_of(to_world)) * norm(to_object) * norm(to_world);
+    at->error = size + there;
+    at->normal = gi_normalize(gi_affine_transposed_vector(to_object, at->normal));
+    at->geometric = gi_normalize(gi_affine_transposed_vector(to_object, at->geometric));
+}
+
+/* The transforms between the world and the shape's own space, outermost first. */
+static int transforms_of(
+    const GiShapes *shapes, GiShapeRef ref, uint32_t instance, const GiTransform *transforms[2]) {
+    int count = 0;
+    if (instance != GI_SHAPE_NONE) {
+        transforms[count++] = &shapes->transforms[shapes->instances[instance].transform];
+    }
+    if (gi_shape_kind(ref) == GI_SHAPE_PLACED) {
+        const GiPlacement *placement = &shapes->placements[gi_shape_index(ref)];
+        transforms[count++] = &shapes->transforms[placement->transform];
+    }
+    return count;
+}
+
 GiSurfacePoint gi_shape_point_any(const GiShapes *shapes, GiShapeRef ref, uint32_t instance,
     GiVec origin, GiVec direction, double t, bool second_nappe_geometric) {
-    (void)instance;
-    GiSurfacePoint at;
-    if (gi_shape_kind(ref) != GI_SHAPE_PLACED) {
-        at = unplaced_point(shapes, ref, origin, direction, t, second_nappe_geometric);
-        at.error = (at.error + gi_largest(at.point)) * GI_SURFACE_ERROR;
-        return at;
-    }
-    const GiPlacement *placement = &shapes->placements[gi_shape_index(ref)];
-    const GiTransform *transform = &shapes->transforms[placement->transform];
-    /* The same operations as gi_hit_to_object, so that t fits to the bit. */
-    origin = gi_affine_point(&transform->to_object, origin);
-    direction = gi_affine_vector(&transform->to_object, direction);
-    at = unplaced_point(shapes, placement->shape, origin, direction, t, second_nappe_geometric);
-    /* Errors in object space are stretched by the transform, those of the way there shrunk and
-     * stretched again: the product of the two norms bounds both. */
-    double error = (at.error + gi_largest(at.point)) * norm(&transform->to_world);
-    at.point = gi_affine_point(&transform->to_world, at.point);
-    double there = (gi_largest(at.point) + offset_of(&transform->to_world)) *
-                   norm(&transform->to_object) * norm(&transform->to_world);
-    at.error = (error + there) * GI_SURFACE_ERROR;
-    at.normal = gi_normalize(gi_affine_transposed_vector(&transform->to_object, at.normal));
-    at.geometric = gi_normalize(gi_affine_transposed_vector(&transform->to_object, at.geometric));
+    const GiTransform *transforms[2];
+    int count = transforms_of(shapes, ref, instance, transforms);
+    for (int i = 0; i < count; i++) enter(transforms[i], &origin, &direction);
+    GiSurfacePoint at = unplaced_point(
+        shapes, gi_shape_unplaced(shapes, ref), origin, direction, t, second_nappe_geometric);
+    at.error += gi_largest(at.point);
+    for (int i = count; i-- > 0;) leave(transforms[i], &at);
+    at.error *= GI_SURFACE_ERROR;
     return at;
+}
+
+/* ---------------------------------------------------------------- texture coordinates */
+
+void gi_sphere_texcoord(GiVec normal, double uv[2]) {
+    const double pi = 3.14159265358979324;
+    double y = normal.y < -1 ? -1 : normal.y > 1 ? 1 : normal.y;
+    uv[0] = (gi_atan2(normal.x, normal.z) + pi) / (2 * pi);
+    uv[1] = (gi_asin(y) + pi / 2) / pi;
+}
+
+static void triangle_texcoord(
+    const GiShapes *shapes, uint32_t triangle, GiVec point, double uv[2]) {
+    const GiTriangles *triangles = &shapes->triangles;
+    const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, triangle)];
+    uint32_t row[3];
+    if (!mesh->textured || !corner_row((const uint32_t(*)[3])mesh->texcoord_corners,
+                               mesh->first_texcoord, mesh, triangles, triangle, row)) {
+        return;
+    }
+    const float *corners[3];
+    gi_triangle_corners(triangles, triangle, corners);
+    GiVec normal = triangle_normal(corners), from[3];
+    for (int i = 0; i < 3; i++) from[i] = gi_sub(corner_vec(corners[i]), point);
+    double part[3], sum = 0;
+    for (int i = 0; i < 3; i++) {
+        part[i] = gi_dot(normal, gi_cross(from[(i + 1) % 3], from[(i + 2) % 3]));
+        sum += part[i];
+    }
+    if (!(fabs(sum) > 0)) return;
+    for (int i = 0; i < 3; i++) {
+        uv[0] += part[i] / sum * (double)triangles->texcoords[row[i]][0];
+        uv[1] += part[i] / sum * (double)triangles->texcoords[row[i]][1];
+    }
 }
 
 void gi_shape_texcoord(
     const GiShapes *shapes, GiShapeRef ref, uint32_t instance, GiVec point, double uv[2]) {
-    (void)shapes;
-    (void)ref;
-    (void)instance;
-    (void)point;
+    const GiTransform *transforms[2];
+    int count = transforms_of(shapes, ref, instance, transforms);
+    for (int i = 0; i < count; i++) point = gi_affine_point(&transforms[i]->to_object, point);
+    GiShapeRef own = gi_shape_unplaced(shapes, ref);
     uv[0] = uv[1] = 0;
+    if (gi_shape_kind(own) == GI_SHAPE_SPHERE) {
+        GiVec center = shapes->spheres[gi_shape_index(own)].center;
+        gi_sphere_texcoord(gi_normalize(gi_sub(point, center)), uv);
+    } else if (gi_shape_kind(own) == GI_SHAPE_TRIANGLE) {
+        triangle_texcoord(shapes, gi_shape_index(own), point, uv);
+    }
 }

@@ -5,6 +5,7 @@
 
 #include "math/affine.h"
 
+#include <stddef.h>
 #include <stdint.h>
 
 typedef enum GiShapeKind {
@@ -75,6 +76,7 @@ typedef struct GiTriangles {
     const float (*normals)[3];
     const float (*texcoords)[2];
     const uint32_t (*corners)[3]; /* indices of positions, a row a triangle */
+    const uint32_t *original;     /* places in the file's order: commit rearranges rows; or null */
 } GiTriangles;
 
 /* One file. Indices count from the first of the scene-wide arrays. */
@@ -108,9 +110,9 @@ typedef struct GiTransform {
 /* A tree of its own under a transform: a mesh or a group that is not spread out. */
 typedef struct GiInstance {
     const struct GiTree *tree;
+    const GiBox *bounds; /* of what is in the tree */
+    GiShapeInfo info;    /* of a mesh; in a group each shape has its own */
     uint32_t transform;
-    GiShapeInfo
-        info; /* of a mesh. Otherwise info.shader is GI_SHAPE_NONE: each shape has its own */
 } GiInstance;
 
 /* The arrays that refs index, with the one rule that changes where rays meet shapes. */
@@ -124,8 +126,7 @@ typedef struct GiShapes {
     GiTriangles triangles;
     const GiMesh *meshes; /* in the order of their triangles */
     uint32_t mesh_count;
-    const GiShapeInfo *mesh_info; /* parallel to meshes: of those that stand in a tree as triangles,
-                                     not as an instance */
+    const GiShapeInfo *mesh_info; /* parallel to meshes: of those that are not instances */
     const GiPlacement *placements;
     const GiTransform *transforms;
     const GiInstance *instances;
@@ -142,14 +143,30 @@ static inline GiShapeRef gi_shape_unplaced(const GiShapes *shapes, GiShapeRef re
                                                  : ref;
 }
 
+/* The mesh that a triangle is of, by halving: the last one that does not begin after it. */
+static inline uint32_t gi_shape_mesh(const GiShapes *shapes, uint32_t triangle) {
+    uint32_t low = 0, high = shapes->mesh_count;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        if (shapes->meshes[middle].first_triangle <= triangle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
 /* From here on a surface is named by a ref and the index of the instance it stands in, or
  * GI_SHAPE_NONE. */
 
 static inline const GiShapeInfo *gi_shape_info(
     const GiShapes *shapes, GiShapeRef ref, uint32_t instance) {
-    (void)instance;
     ref = gi_shape_unplaced(shapes, ref);
-    return &shapes->info[gi_shape_kind(ref)][gi_shape_index(ref)];
+    uint32_t i = gi_shape_index(ref);
+    if (gi_shape_kind(ref) != GI_SHAPE_TRIANGLE) return &shapes->info[gi_shape_kind(ref)][i];
+    if (instance != GI_SHAPE_NONE) return &shapes->instances[instance].info;
+    return &shapes->mesh_info[gi_shape_mesh(shapes, i)];
 }
 
 /* Whether a goes before b where a ray meets both at the same t. */
@@ -158,10 +175,23 @@ static inline bool gi_shape_before(
     uint32_t order_a = gi_shape_info(shapes, a, instance_a)->order;
     uint32_t order_b = gi_shape_info(shapes, b, instance_b)->order;
     if (order_a != order_b) return order_a < order_b;
-    return instance_a != instance_b ? instance_a < instance_b : a.bits < b.bits;
+    if (instance_a != instance_b) return instance_a < instance_b;
+    const uint32_t *original = shapes->triangles.original;
+    if (gi_shape_kind(a) == GI_SHAPE_TRIANGLE && original != NULL) {
+        return original[gi_shape_index(a)] < original[gi_shape_index(b)];
+    }
+    return a.bits < b.bits;
 }
 
-/* The smallest box round a shape; infinite for a plane. */
+/* The corners of a triangle. */
+static inline void gi_triangle_corners(
+    const GiTriangles *triangles, uint32_t triangle, const float *corners[3]) {
+    const uint32_t *rows = triangles->corners[triangle];
+    for (int i = 0; i < 3; i++) corners[i] = triangles->positions[rows[i]];
+}
+
+/* The smallest box round a shape or an instance; infinite for a plane. Empty (low above high) for a
+ * triangle without area: it can not be met, and is left out of trees. */
 GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref, uint32_t instance);
 
 /* The point where a ray (origin, direction) met the shape at t, moved onto the surface to the last
@@ -202,6 +232,9 @@ static inline GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef r
     at.error = (at.error + gi_largest(at.point)) * GI_SURFACE_ERROR;
     return at;
 }
+
+/* Texture coordinates by a sphere's unit normal. */
+void gi_sphere_texcoord(GiVec normal, double uv[2]);
 
 /* Texture coordinates of a point of the surface: of spheres and of meshes that have them, otherwise
  * (0, 0). */

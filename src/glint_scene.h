@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT
+ * What a GlintScene is, for the files of the public functions. */
+#pragma once
+
+#include "base/error.h"
+#include "render/render.h"
+#include "sched/pool.h"
+
+struct GlintScene {
+    GiMemory memory;
+    GiScene model;
+    GiWorld world;
+    GiPool *pool; /* from commit on */
+    const GiKernel *kernel;
+    GlintDialect dialect; /* asked for */
+    int thread_count;
+    GlintDiagnosticFn diagnostic;
+    void *diagnostic_user;
+    bool committed, broken; /* broken: a load or commit failed */
+    GlintStats stats;
+};
+
+#define ARGUMENT(error, ...) gi_error_set((error), GLINT_ERROR_ARGUMENT, __VA_ARGS__)
+
+static inline bool is_finite3(const double v[3]) {
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
+
+static inline bool is_zero3(const double v[3]) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
