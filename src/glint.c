@@ -244,13 +244,16 @@ GlintStatus glint_render(
         area.crop_height > area.height - area.y) {
         return ARGUMENT(error, "the crop reaches outside of the picture");
     }
+    if ((unsigned)desc->sampling > GLINT_SAMPLING_RANDOM) {
+        return ARGUMENT(error, "no such sampling");
+    }
     if (desc->light < -1 || desc->light > (int)scene->model.lights.count) {
         return ARGUMENT(error, "there is no such light");
     }
     double start = gi_machine_seconds();
     GiRenderCounts counts = {0};
-    const GiRenderTarget target = {
-        pixels, desc->depth, desc->normal, desc->albedo, desc->surface, desc->light};
+    const GiRenderTarget target = {pixels, desc->depth, desc->normal, desc->albedo, desc->surface,
+        desc->light, desc->sampling, GI_TECHNIQUE_BOTH};
     GlintStatus status =
         gi_render(&scene->world, scene->pool, &area, desc->monitor, &target, &counts);
     scene->stats.trace_seconds = gi_machine_seconds() - start;

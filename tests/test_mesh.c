@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Mesh files: what the formats accept, what they refuse and in which line, the same result for any
  * number of threads and any borders of chunks, and numbers rounded as strtof does. */
+#define _XOPEN_SOURCE 700 /* symlink */
 #include "test.h"
 
 #include "mesh/decimal.h"
@@ -13,6 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ---------------------------------------------------------------- tools */
 
@@ -768,6 +770,23 @@ static void files(void) {
     unload(&loaded);
 }
 
+/* What cannot be mapped is read. */
+static void pipes(void) {
+    const char *text = VERTICES "f 1 2 3\n";
+    int ends[2];
+    CHECK(pipe(ends) == 0);
+    CHECK(write(ends[1], text, strlen(text)) == (ssize_t)strlen(text));
+    close(ends[1]);
+    char target[64], path[4096];
+    snprintf(target, sizeof target, "/dev/fd/%d", ends[0]);
+    snprintf(path, sizeof path, "%s/pipe.obj", test_scratch_dir());
+    CHECK(symlink(target, path) == 0);
+    Loaded loaded;
+    CHECK_TEXT(load_file(&loaded, path, NULL), "1 0 0, 0 1 0, 0 0 1; ");
+    unload(&loaded);
+    close(ends[0]);
+}
+
 /* The meshes of the course, where they are at hand. */
 static void reference(void) {
     static const struct {
@@ -813,4 +832,4 @@ static void reference(void) {
 const GiTest tests_mesh[] = {TEST(numbers_by_hand), TEST(numbers_at_random), TEST(msh),
     TEST(msh_faults), TEST(obj), TEST(obj_attributes), TEST(obj_memory), TEST(obj_faults),
     TEST(obj_large), TEST(ply_ascii), TEST(ply_binary), TEST(ply_faults), TEST(failing_allocator),
-    TEST(by_calls), TEST(files), TEST(reference), TEST_END};
+    TEST(by_calls), TEST(files), TEST(pipes), TEST(reference), TEST_END};

@@ -416,6 +416,12 @@ typedef struct GlintSceneInfo {
 
 GLINT_API void glint_scene_info(const GlintScene *scene, GlintSceneInfo *info);
 
+/* Where samples of large lights, environments and paths fall. */
+typedef enum GlintSampling {
+    GLINT_SAMPLING_SOBOL, /* scrambled low-discrepancy sequences */
+    GLINT_SAMPLING_RANDOM /* plain random numbers: noisier, to compare with */
+} GlintSampling;
+
 typedef struct GlintRenderDesc {
     int width, height;           /* 0 (default): the scene's */
     int crop_x, crop_y;          /* top left corner of the part to draw; 0 */
@@ -430,6 +436,7 @@ typedef struct GlintRenderDesc {
     float *normal;     /* 3 a pixel: the normal that is shaded with; 0 0 0 where nothing is met */
     float *albedo;     /* 3 a pixel: the diffuse colour, textures included */
     uint32_t *surface; /* GlintSurfaceId of the first sample's surface; 0: none */
+    GlintSampling sampling;      /* SOBOL */
     const GlintMonitor *monitor; /* null */
     int cookie;
 } GlintRenderDesc;

@@ -109,7 +109,8 @@ typedef struct Prepare {
 static const GiBox empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
 static GiBox box_around(const GiBox *a, const GiBox *b) {
-    return (GiBox){{smaller(a->low.x, b->low.x), smaller(a->low.y, b->low.y), smaller(a->low.z, b->low.z)},
+    return (GiBox){
+        {smaller(a->low.x, b->low.x), smaller(a->low.y, b->low.y), smaller(a->low.z, b->low.z)},
         {larger(a->high.x, b->high.x), larger(a->high.y, b->high.y), larger(a->high.z, b->high.z)}};
 }
 

@@ -163,7 +163,8 @@ static void add_beam(const GiStage *stage, int i, const Beam *beam) {
     GiVec value = gi_bsdf_evaluate(&at, beam->direction);
     double factor = beam->radiance ? gi_stage_radiance(&at) : 1;
     if (beam->density > 0 && gi_surface_probes(stage->world, at.shader)) {
-        factor *= gi_stage_share(beam->density, gi_bsdf_density(&at, beam->direction));
+        factor *= gi_stage_share(
+            stage, GI_TECHNIQUE_LIGHT, beam->density, gi_bsdf_density(&at, beam->direction));
     }
     GiVec light = gi_scale(gi_multiply(beam->light, value), factor);
     if (gi_vec_is_zero(light) || is_blocked(stage, i, beam)) return;

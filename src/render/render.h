@@ -14,12 +14,21 @@ typedef struct GiRenderArea {
     int width, height, x, y, crop_width, crop_height;
 } GiRenderArea;
 
+/* How large lights are found; the mean is the same. Tests compare them, pictures take both. */
+typedef enum GiTechnique {
+    GI_TECHNIQUE_BOTH, /* weighted by their densities */
+    GI_TECHNIQUE_LIGHT,
+    GI_TECHNIQUE_BSDF
+} GiTechnique;
+
 /* What to draw, and where to: crop_width * crop_height values or triples, top row first. All but
  * color may be null. */
 typedef struct GiRenderTarget {
     float *color, *depth, *normal, *albedo;
     uint32_t *surface;
     int light; /* as in GlintRenderDesc */
+    GlintSampling sampling;
+    GiTechnique technique;
 } GiRenderTarget;
 
 /* Errors: MEMORY, CANCELLED. */

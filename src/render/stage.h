@@ -88,7 +88,7 @@ typedef struct GiStage {
     const GiTileControl *control;
     GiTileScratch *scratch;
     GiRenderCounts *counts;
-    int light;             /* as in GlintRenderDesc */
+    const GiRenderTarget *target;
     uint32_t x, y, sample; /* the tile's corner in the whole picture; number of the sample */
 } GiStage;
 
@@ -97,8 +97,10 @@ bool gi_stage_stopped(const GiStage *stage);
 
 /* The numbers of a pixel's sample. A dimension is a purpose at a level. */
 static inline GiSampler gi_stage_sampler(const GiStage *stage, uint32_t pixel) {
-    return gi_sampler(
-        stage->x + pixel % GI_TILE_STRIDE, stage->y + pixel / GI_TILE_STRIDE, stage->sample);
+    uint32_t x = stage->x + pixel % GI_TILE_STRIDE, y = stage->y + pixel / GI_TILE_STRIDE;
+    return stage->target->sampling == GLINT_SAMPLING_SOBOL
+               ? gi_sampler(x, y, stage->sample)
+               : gi_sampler_independent(x, y, stage->sample);
 }
 
 typedef enum GiPurpose {
@@ -115,15 +117,19 @@ static inline uint32_t gi_stage_dimension(uint32_t level, uint32_t purpose) {
 }
 
 /* The weight of one of two ways to draw the same light, by their densities (Veach and Guibas 1995,
- * power heuristic). */
-static inline double gi_stage_share(double density, double other) {
+ * power heuristic). own: the technique that the first density is of. */
+static inline double gi_stage_share(
+    const GiStage *stage, GiTechnique own, double density, double other) {
+    GiTechnique technique = stage->target->technique;
+    if (technique != GI_TECHNIQUE_BOTH) return technique == own ? 1 : 0;
     double a = density * density, b = other * other;
     return a > 0 ? a / (a + b) : 0;
 }
 
 /* Whether light of that index (-1: of no light) is drawn. */
 static inline bool gi_stage_draws(const GiStage *stage, int light) {
-    return stage->light == 0 || stage->light == (light < 0 ? -1 : light + 1);
+    int wanted = stage->target->light;
+    return wanted == 0 || wanted == (light < 0 ? -1 : light + 1);
 }
 
 /* What light given as radiance counts beside that of point lights, given as intensity. */

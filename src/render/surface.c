@@ -72,8 +72,10 @@ static inline void extend_segment(GiTileScratch *scratch, uint32_t shader) {
 
 /* The share of the light from a large source that falls to a ray that found it by its bsdf; light
  * drawn at the source has the rest. */
-static double share_of_flight(const GiFlight *flight, double light_density) {
-    return flight->density > 0 ? gi_stage_share(flight->density, light_density) : 1;
+static double share_of_flight(const GiStage *stage, const GiFlight *flight, double light_density) {
+    return flight->density > 0
+               ? gi_stage_share(stage, GI_TECHNIQUE_BSDF, flight->density, light_density)
+               : 1;
 }
 
 /* What a surface shows without any light. */
@@ -82,8 +84,7 @@ static inline GiVec shine_of(const GiStage *stage, const GiShader *shader, GiVec
 }
 
 /* A visible rectangle light shines from its front and is black behind. */
-static GiVec rectangle_emission(
-    const GiStage *stage, const GiFlight *flight, const Met *met) {
+static GiVec rectangle_emission(const GiStage *stage, const GiFlight *flight, const Met *met) {
     const GiWorld *world = stage->world;
     uint32_t light_index = gi_shape_info(&world->shapes, met->shape, met->instance)->shader;
     const GiLightRectangle *rectangle = &world->lights.data[light_index];
@@ -91,7 +92,8 @@ static GiVec rectangle_emission(
     double density = gi_rectangle_density(rectangle, offset);
     if (!(density > 0) || !gi_stage_draws(stage, (int)light_index)) return gi_vec(0, 0, 0);
     GiVec intensity = world->scene->lights.data[light_index].intensity;
-    return flight == NULL ? intensity : gi_scale(intensity, share_of_flight(flight, density));
+    return flight == NULL ? intensity
+                          : gi_scale(intensity, share_of_flight(stage, flight, density));
 }
 
 /* What a ray sees that meets nothing. */
@@ -103,7 +105,7 @@ static GiVec background(const GiStage *stage, const GiFlight *flight, GiVec dire
     GiVec radiance = gi_environment_radiance(environment, direction);
     if (flight == NULL || !world->sky_lights) return radiance;
     double density = gi_environment_density(&world->sky, direction);
-    return gi_scale(radiance, share_of_flight(flight, density));
+    return gi_scale(radiance, share_of_flight(stage, flight, density));
 }
 
 /* ---------------------------------------------------------------- what goes on */
@@ -336,8 +338,7 @@ void gi_surface_bundle(const GiStage *stage, const uint32_t *pixels) {
         }
         if (gi_shape_kind(shape) == GI_SHAPE_RECTANGLE) {
             Met met = met_of_bundle(bundle, i, pixels[i]);
-            scratch->color[pixels[i]] =
-                rectangle_emission(stage, NULL, &met);
+            scratch->color[pixels[i]] = rectangle_emission(stage, NULL, &met);
             continue;
         }
         uint32_t shader = gi_shape_info(&world->shapes, shape, bundle->instance[i])->shader;

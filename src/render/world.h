@@ -25,7 +25,7 @@ typedef struct GiWorld {
     GiSpread spread;    /* its lists are empty again once the trees stand */
     uint32_t *original; /* of triangles, see GiTriangles */
     size_t original_count;
-    GI_ARRAY(GiRectangle) rectangles; /* lights that can be seen; their info.shader is the light */
+    GI_ARRAY(GiRectangle) rectangles;  /* lights that can be seen; their info.shader is the light */
     GI_ARRAY(GiLightRectangle) lights; /* an entry for every light; those of rectangles count */
     GiEnvironmentSampler sky;
     bool sky_lights;       /* the environment lights surfaces */
