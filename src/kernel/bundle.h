@@ -403,9 +403,11 @@ static inline void bundle_one_by_one(const Tile *tile) {
     for (int i = 0; i < bundle->count; i++) {
         if (i % 16 == 0 && bundle->stop != NULL && bundle->stop(bundle->stop_context)) return;
         GiTraceRay ray = bundle_ray(bundle, i);
-        Line line = line_of(tile->tree, tile->shapes, tile->instance, &ray);
         GiTraceHit hit = {tile->any ? ray.t_max : bundle->t[i], {GI_SHAPE_NONE}, GI_SHAPE_NONE};
-        if (!(tile->any ? line_walk(&line, true, &hit) : line_walk(&line, false, &hit))) continue;
+        bool found = tile->any
+                         ? line_trace(tile->tree, tile->shapes, tile->instance, &ray, true, &hit)
+                         : line_trace(tile->tree, tile->shapes, tile->instance, &ray, false, &hit);
+        if (!found) continue;
         bundle->shape[i] = hit.shape.bits;
         bundle->instance[i] = hit.instance;
         if (!tile->any) bundle->t[i] = hit.t;
