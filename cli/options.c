@@ -119,6 +119,33 @@ static const char *help_name_at(int index) {
     return names[index];
 }
 
+static const char *layer_name_at(int index) {
+    /* In the order of the bits of CliLayerKind. */
+    static const char *const names[] = {
+        "depth", "normal", "albedo", "surface", "lights", "all", NULL};
+    return names[index];
+}
+
+/* Names with commas between them. */
+static CliStatus set_layers(CliOptions *options, const char *value) {
+    for (const char *name = value;; name++) {
+        size_t size = strcspn(name, ",");
+        int index = 0;
+        while (layer_name_at(index) != NULL && (strlen(layer_name_at(index)) != size ||
+                                                   strncmp(layer_name_at(index), name, size) != 0))
+            index++;
+        if (layer_name_at(index) == NULL) {
+            char word[32];
+            snprintf(word, sizeof word, "%.*s", (int)size, name);
+            return refuse_name("layers", word, layer_name_at);
+        }
+        bool all = layer_name_at(index + 1) == NULL;
+        options->layers |= all ? (1u << index) - 1 : 1u << index;
+        name += size;
+        if (*name == '\0') return CLI_OK;
+    }
+}
+
 static CliStatus set_stats(CliOptions *options, const char *value) {
     options->stats = CLI_STATS_TEXT;
     if (value == NULL || strcmp(value, "text") == 0) return CLI_OK;
@@ -142,6 +169,7 @@ static CliStatus apply(CliOptions *options, CliOptionId id, const char *value) {
         return value[0] != '\0' ? CLI_OK : cli_message_usage("--output takes the name of a file");
     case CLI_OPTION_SIZE: return set_size(options, value);
     case CLI_OPTION_CROP: return set_crop(options, value);
+    case CLI_OPTION_LAYERS: return set_layers(options, value);
     case CLI_OPTION_DIALECT: return set_dialect(options, value);
     case CLI_OPTION_THREADS: return set_threads(options, value);
     case CLI_OPTION_ISA: return set_isa(options, value);

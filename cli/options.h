@@ -17,6 +17,15 @@ typedef enum CliHelpFormat { CLI_HELP_SCREEN, CLI_HELP_MAN, CLI_HELP_MARKDOWN } 
 
 typedef enum CliStatsFormat { CLI_STATS_NONE, CLI_STATS_TEXT, CLI_STATS_JSON } CliStatsFormat;
 
+/* What --layers adds to a picture. */
+typedef enum CliLayerKind {
+    CLI_LAYER_DEPTH = 1 << 0,
+    CLI_LAYER_NORMAL = 1 << 1,
+    CLI_LAYER_ALBEDO = 1 << 2,
+    CLI_LAYER_SURFACE = 1 << 3,
+    CLI_LAYER_LIGHTS = 1 << 4
+} CliLayerKind;
+
 typedef struct CliOptions {
     CliAction action;
     CliHelpFormat help;
@@ -26,6 +35,7 @@ typedef struct CliOptions {
     const char *isa;                             /* null: the fastest */
     int width, height;                           /* 0: the scene's */
     int crop_x, crop_y, crop_width, crop_height; /* crop_width 0: the whole picture */
+    unsigned layers;                             /* a set of CliLayerKind */
     CliStatsFormat stats;
     bool quiet;
     char **scenes; /* as given; points into argv */

@@ -6,6 +6,7 @@
 
 #include "inputs.h"
 #include "interrupt.h"
+#include "layers.h"
 #include "message.h"
 #include "progress.h"
 #include "stats.h"
@@ -23,6 +24,7 @@ typedef struct Drawing {
     const CliJob *job;
     GlintScene *scene;
     float *pixels;
+    CliLayers layers;
     GlintRenderDesc area;
     GlintMonitor monitor;
     CliProgress progress;
@@ -192,7 +194,16 @@ static bool allocate_pixels(Drawing *drawing) {
     if (size > SIZE_MAX || (known && size / (uint64_t)page_size >= (uint64_t)page_count))
         return false;
     drawing->pixels = malloc((size_t)size);
-    return drawing->pixels != NULL;
+    if (drawing->pixels == NULL) return false;
+    if (drawing->options->layers == 0) return true;
+    GlintSceneInfo info;
+    glint_scene_info(drawing->scene, &info);
+    if (!cli_layers_init(&drawing->layers, drawing->options->layers, (size_t)pixel_count,
+            (int)info.light_count)) {
+        return false;
+    }
+    cli_layers_aim(&drawing->layers, &drawing->area);
+    return true;
 }
 
 static GlintStatus save(Drawing *drawing) {
@@ -204,7 +215,8 @@ static GlintStatus save(Drawing *drawing) {
     desc.title = cli_path_base(cli_job_name(drawing->job));
     desc.thread_count = drawing->options->thread_count;
     desc.monitor = &drawing->monitor;
-    GlintStatus status = glint_image_save(&image, drawing->job->picture, &desc, &drawing->error);
+    GlintStatus status =
+        cli_layers_save(&drawing->layers, &image, drawing->job->picture, &desc, &drawing->error);
     drawing->stats.write_seconds = cli_clock() - began;
     return status;
 }
@@ -232,6 +244,10 @@ static CliStatus draw(Drawing *drawing) {
             "not enough memory for the picture");
     }
     status = glint_render(drawing->scene, &drawing->area, drawing->pixels, &drawing->error);
+    if (status == GLINT_OK) {
+        status =
+            cli_layers_render(&drawing->layers, drawing->scene, &drawing->area, &drawing->error);
+    }
     if (status != GLINT_OK) return fail(drawing, status, CLI_INPUT);
     status = save(drawing);
     if (status == GLINT_OK) return CLI_OK;
@@ -276,6 +292,7 @@ CliStatus cli_render(const CliOptions *options) {
             if (drawn == CLI_OK && !cli_interrupt_seen()) drawn = announce(&drawing);
             status = cli_status_worse(status, drawn);
             free(drawing.pixels);
+            cli_layers_reset(&drawing.layers);
             glint_scene_destroy(drawing.scene);
         }
     }

@@ -8,7 +8,8 @@ set -u
 cd "${1:-$(dirname "$0")/..}" || exit 3
 
 # Room: the rooms that it may see besides itself, base, math and the public header.
-plan='
+all='sample light texture mesh render reader scene image accel kernel shape shade camera sched port'
+plan="
 base:
 math:
 port:
@@ -26,10 +27,10 @@ shade: scene shape light texture
 camera: scene
 reader: scene mesh shape light texture port
 render: sample light texture shade camera kernel accel image sched scene shape port
-glint.c: sample light texture mesh render reader scene image accel kernel shape shade camera sched port glint_scene.h
-glint_build.c: sample light texture mesh render reader scene image accel kernel shape shade camera sched port glint_scene.h
-glint_scene.h: sample light texture mesh render reader scene image accel kernel shape shade camera sched port
-'
+glint.c: $all glint_scene.h
+glint_build.c: $all glint_scene.h
+glint_scene.h: $all
+"
 
 found=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' src --include='*.[ch]')
 report=$(printf '%s\n--\n%s\n' "$plan" "$found" | awk '

@@ -178,6 +178,16 @@ for value in 0x5 5 5x 5x5x5 -5x5 99999x99999 99999999999999999999x1; do
     says "640x480"
 done
 for value in 1,2,3 1,2,3,0 -1,2,3,4 1,2,3,4,5; do run 2 --crop "$value" a.xml; done
+
+# Layers are files beside the picture.
+run 0 --layers depth,lights -o layers.png a.xml
+for file in layers.png layers.depth.pfm layers.light.none.png; do
+    check "--layers leaves $file" test -s "$file"
+done
+check "--layers leaves nothing else" test ! -e layers.normal.pfm
+run 2 --layers dept a.xml
+says "did you mean 'depth'?"
+run 2 --layers depth, a.xml
 for value in 0 x 4x 1025 ''; do
     run 2 "--threads=$value" a.xml
     says "from 1 to 1024"

@@ -401,7 +401,7 @@ static void check_by_angle(const GiLightRectangle *r, GiVec from) {
 
 static void rectangle_by_solid_angle(void) {
     static const GiVec places[] = {{0.5, 1, 0}, {3, -2, 1}, {0, 0, 4.9}, {1.9, 2.9, 4.5},
-        {-9, 0.1, 4.5}, {0.2, 30, -20}, {7, 7, 4.99}};
+        {-4, 0.1, 4.5}, {0.2, 6, 2}, {7, 7, 4.99}};
     GiLightRectangle r;
     CHECK(gi_rectangle_init(&r, gi_vec(0.5, 1, 5), gi_vec(0, 0, -1), gi_vec(1, 3, 0), 3, 4));
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {

@@ -77,8 +77,9 @@ enum { GI_TREE_DEPTH_LIMIT = 96 }; /* levels of nodes, at most */
 typedef struct GiTree {
     GiVec center;
     double scale;
-    GiBox bounds;  /* of all that is in the tree; infinite when something has no bounds */
-    uint32_t root; /* a child; GI_CHILD_NONE: an empty tree */
+    GiBox bounds;       /* of all that is in the tree; infinite when something has no bounds */
+    bool has_triangles; /* some child is a range of them */
+    uint32_t root;      /* a child; GI_CHILD_NONE: an empty tree */
     const GiNode *nodes;
     const GiSphereBlock *sphere_blocks;
     const GiBoxBlock *box_blocks;

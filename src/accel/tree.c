@@ -201,6 +201,7 @@ static GiShapeRef place_triangle(Layout *layout, GiShapeRef ref) {
 }
 
 static uint32_t emit_triangles(Layout *layout, const GiBuildNode *leaf) {
+    layout->store->tree.has_triangles = true;
     uint32_t first = gi_shape_index(place_triangle(layout, item_ref(layout, leaf, 0)));
     for (uint32_t i = 1; i < leaf->count; i++) place_triangle(layout, item_ref(layout, leaf, i));
     return gi_child_triangles(first, leaf->count);

@@ -215,17 +215,22 @@ static inline bool bring_home(
     return met != 0;
 }
 
-/* All tests of one instance that stand in a row: their rays are a bundle of their own, since an
- * affine map leaves them one point in common. The bundle is too large for a frame that is always
+/* All tests of the instance that the first one names: their rays are a bundle of their own, since
+ * an affine map leaves them one point in common. The bundle is too large for a frame that is always
  * there, hence a function of its own. Returns whether anything changed. */
-static bool tile_instance(Tile *tile, const Test *tests, int count) {
+static bool tile_instance(Tile *tile, int first) {
     GiBundle inner;
     uint16_t from[GI_BUNDLE_SIZE];
-    uint32_t index = gi_shape_index(tests[0].shape);
+    GiShapeRef ref = tile->tests[first].shape;
+    uint32_t index = gi_shape_index(ref);
     const GiInstance *instance = &tile->shapes->instances[index];
     const GiAffine *to_object = &tile->shapes->transforms[instance->transform].to_object;
     inner.count = 0;
-    for (int i = 0; i < count; i++) take_inside(tile, &tests[i], to_object, &inner, from);
+    for (int i = first; i < tile->test_count; i++) {
+        if (tile->tests[i].shape.bits != ref.bits) continue;
+        take_inside(tile, &tile->tests[i], to_object, &inner, from);
+        tile->tests[i].rays = 0; /* done */
+    }
     if (inner.count == 0) return false;
     inner.apex = gi_affine_point(to_object, tile->bundle->apex);
     inner.side = gi_affine_vector(to_object, tile->bundle->side);
@@ -266,11 +271,7 @@ static inline void tile_flush(Tile *tile) {
     for (int i = 0; i < tile->test_count; i++) {
         const Test *test = &tile->tests[i];
         if (gi_shape_kind(test->shape) == GI_SHAPE_INSTANCE) {
-            int first = i;
-            while (i + 1 < tile->test_count && test[i + 1 - first].shape.bits == test->shape.bits) {
-                i++;
-            }
-            changed |= tile_instance(tile, test, i + 1 - first);
+            if (test->rays != 0) changed |= tile_instance(tile, i);
             continue;
         }
         unsigned rays = test->rays & tile->alive[test->packet];
@@ -278,7 +279,7 @@ static inline void tile_flush(Tile *tile) {
     }
     tile_count(tile, tile->test_count);
     tile->test_count = 0;
-    if (changed && tile->any) tile_shrink(tile);
+    if (changed && tile->any) tile_enclose(tile);
     if (changed && !tile->any) tile_refresh_far(tile);
 }
 
@@ -294,12 +295,13 @@ typedef struct Pairs {
 static inline void tile_pairs(
     const Tile *tile, const Rectangles *rectangles, unsigned bits, Pairs *pairs) {
     pairs->count = 0;
-    for (; bits != 0; bits &= bits - 1) {
-        int lane = lowest_bit(bits);
-        for (int first = 0; first < GI_PACKET_COUNT; first += 16) {
-            unsigned packets = tile_overlaps(&tile->packets, rectangles, lane, first);
-            pairs->count += sixteen_append(
-                pairs->pair + pairs->count, packets, (uint32_t)(lane * GI_PACKET_COUNT + first));
+    for (int g = 0; g < GROUP_COUNT; g++) {
+        unsigned rest = bits & tile_group(&tile->groups, g, rectangles);
+        for (; rest != 0; rest &= rest - 1) {
+            int lane = lowest_bit(rest);
+            unsigned packets = tile_overlaps(&tile->packets, rectangles, lane, g * GROUP_SIZE);
+            pairs->count += sixteen_append(pairs->pair + pairs->count, packets,
+                (uint32_t)(lane * GI_PACKET_COUNT + g * GROUP_SIZE));
         }
     }
 }
@@ -401,9 +403,11 @@ static inline void bundle_one_by_one(const Tile *tile) {
     for (int i = 0; i < bundle->count; i++) {
         if (i % 16 == 0 && bundle->stop != NULL && bundle->stop(bundle->stop_context)) return;
         GiTraceRay ray = bundle_ray(bundle, i);
-        Line line = line_of(tile->tree, tile->shapes, tile->instance, &ray);
         GiTraceHit hit = {tile->any ? ray.t_max : bundle->t[i], {GI_SHAPE_NONE}, GI_SHAPE_NONE};
-        if (!(tile->any ? line_walk(&line, true, &hit) : line_walk(&line, false, &hit))) continue;
+        bool found = tile->any
+                         ? line_trace(tile->tree, tile->shapes, tile->instance, &ray, true, &hit)
+                         : line_trace(tile->tree, tile->shapes, tile->instance, &ray, false, &hit);
+        if (!found) continue;
         bundle->shape[i] = hit.shape.bits;
         bundle->instance[i] = hit.instance;
         if (!tile->any) bundle->t[i] = hit.t;

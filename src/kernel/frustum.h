@@ -12,6 +12,12 @@ typedef struct Packets {
     float far[GI_PACKET_COUNT];
 } Packets;
 
+/* The same of sixteen packets in a row: few shapes concern more than one or two of the groups. */
+enum { GROUP_SIZE = 16, GROUP_COUNT = GI_PACKET_COUNT / GROUP_SIZE };
+typedef struct Groups {
+    float a0[GROUP_COUNT], a1[GROUP_COUNT], b0[GROUP_COUNT], b1[GROUP_COUNT], far[GROUP_COUNT];
+} Groups;
+
 typedef struct Frustum {
     float apex[3], margin;
     float axis[3][3]; /* u, v, w as rows */
@@ -41,6 +47,7 @@ typedef struct Tile {
     float a[GI_BUNDLE_SIZE], b[GI_BUNDLE_SIZE], far[GI_BUNDLE_SIZE]; /* the rays as points */
     uint32_t inverse_known[GI_BUNDLE_SIZE / 32]; /* bits of groups of GI_DOUBLES rays */
     Packets packets;
+    Groups groups;
     Frustum frustum;
     double scale;
     bool stopped;
@@ -109,9 +116,6 @@ static inline double r_minimum(R a) { return -r_maximum(-a); }
 static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiVec w) {
     GiBundle *bundle = tile->bundle;
     Packets *packets = &tile->packets;
-    Frustum *frustum = &tile->frustum;
-    frustum->a0 = frustum->b0 = INFINITY;
-    frustum->a1 = frustum->b1 = frustum->far = -INFINITY;
     M oblique = M_OF(false);
     for (int k = 0; k < GI_PACKET_COUNT; k++) {
         if (k * GI_PACKET_SIZE >= bundle->count) {
@@ -151,11 +155,6 @@ static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiV
         packets->b1[k] += GI_WIDER * (1 + fabsf(packets->b1[k]));
         packets->far[k] = (float)(r_maximum(far) * tile->scale) * (1 + GI_WIDER);
         tile->alive[k] = 0xffff;
-        if (packets->a0[k] < frustum->a0) frustum->a0 = packets->a0[k];
-        if (packets->a1[k] > frustum->a1) frustum->a1 = packets->a1[k];
-        if (packets->b0[k] < frustum->b0) frustum->b0 = packets->b0[k];
-        if (packets->b1[k] > frustum->b1) frustum->b1 = packets->b1[k];
-        if (packets->far[k] > frustum->far) frustum->far = packets->far[k];
     }
     return m_bits(oblique) == 0;
 }
@@ -169,6 +168,38 @@ static inline void frustum_planes(Frustum *frustum) {
         frustum->plane[2][i] = w * frustum->b0 - v;
         frustum->plane[3][i] = v - w * frustum->b1;
     }
+}
+
+static inline void tile_refresh_far(Tile *tile) {
+    Groups *groups = &tile->groups;
+    for (int g = 0; g < GROUP_COUNT; g++) {
+        groups->far[g] = f_highest(tile->packets.far + g * GROUP_SIZE, GROUP_SIZE);
+    }
+    tile->frustum.far = groups->far[0];
+    for (int g = 1; g < GROUP_COUNT; g++) {
+        if (tile->frustum.far < groups->far[g]) tile->frustum.far = groups->far[g];
+    }
+}
+
+/* The groups and the frustum closely round the packets that have rays left. */
+static inline void tile_enclose(Tile *tile) {
+    const Packets *packets = &tile->packets;
+    Groups *groups = &tile->groups;
+    Frustum *frustum = &tile->frustum;
+    frustum->a0 = frustum->b0 = INFINITY;
+    frustum->a1 = frustum->b1 = -INFINITY;
+    for (int g = 0; g < GROUP_COUNT; g++) {
+        groups->a0[g] = f_lowest(packets->a0 + g * GROUP_SIZE, GROUP_SIZE);
+        groups->a1[g] = f_highest(packets->a1 + g * GROUP_SIZE, GROUP_SIZE);
+        groups->b0[g] = f_lowest(packets->b0 + g * GROUP_SIZE, GROUP_SIZE);
+        groups->b1[g] = f_highest(packets->b1 + g * GROUP_SIZE, GROUP_SIZE);
+        if (frustum->a0 > groups->a0[g]) frustum->a0 = groups->a0[g];
+        if (frustum->a1 < groups->a1[g]) frustum->a1 = groups->a1[g];
+        if (frustum->b0 > groups->b0[g]) frustum->b0 = groups->b0[g];
+        if (frustum->b1 < groups->b1[g]) frustum->b1 = groups->b1[g];
+    }
+    tile_refresh_far(tile);
+    frustum_planes(frustum);
 }
 
 static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
@@ -187,7 +218,7 @@ static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
         frustum->axis[i][1] = (float)rows[i].y;
         frustum->axis[i][2] = (float)rows[i].z;
     }
-    frustum_planes(frustum);
+    tile_enclose(tile);
 }
 
 /* ---------------------------------------------------------------- culling */
@@ -372,6 +403,20 @@ static inline unsigned tile_triangles(const Frustum *frustum, const GiTriangles 
     return bits & ((1u << count) - 1);
 }
 
+/* Of eight shapes, bits of those that may concern the packets of a group. */
+static inline unsigned tile_group(const Groups *groups, int g, const Rectangles *shapes) {
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        bits |= (f_less_equal(f_load(shapes->a0 + i), f_of(groups->a1[g])) &
+                    f_less_equal(f_of(groups->a0[g]), f_load(shapes->a1 + i)) &
+                    f_less_equal(f_load(shapes->b0 + i), f_of(groups->b1[g])) &
+                    f_less_equal(f_of(groups->b0[g]), f_load(shapes->b1 + i)) &
+                    f_less_equal(f_load(shapes->near + i), f_of(groups->far[g])))
+                << i;
+    }
+    return bits;
+}
+
 /* Of the sixteen packets from `first` on, bits of those that the rectangle of one shape overlaps,
  * nearer than they look. */
 static inline unsigned tile_overlaps(
@@ -403,20 +448,4 @@ static inline unsigned tile_rays_inside(
         {edges->z[0][lane], edges->z[1][lane], edges->z[2][lane]}, edges->slack[lane]};
     return tile->alive[packet] & sixteen_inside(&lines, tile->a + i, tile->b + i) &
            sixteen_from(shapes->near[lane], tile->far + i);
-}
-
-static inline void tile_refresh_far(Tile *tile) {
-    tile->frustum.far = f_highest(tile->packets.far, GI_PACKET_COUNT);
-}
-
-/* Packets without rays left no longer count: the frustum closes round the others. */
-static inline void tile_shrink(Tile *tile) {
-    const Packets *packets = &tile->packets;
-    Frustum *frustum = &tile->frustum;
-    frustum->a0 = f_lowest(packets->a0, GI_PACKET_COUNT);
-    frustum->a1 = f_highest(packets->a1, GI_PACKET_COUNT);
-    frustum->b0 = f_lowest(packets->b0, GI_PACKET_COUNT);
-    frustum->b1 = f_highest(packets->b1, GI_PACKET_COUNT);
-    tile_refresh_far(tile);
-    frustum_planes(frustum);
 }

@@ -61,9 +61,8 @@ typedef struct Line {
     const GiTree *tree;
     const GiShapes *shapes;
     uint32_t instance; /* whose tree this is, or GI_SHAPE_NONE */
+    const GiTraceRay *given;
     gi_hit_Ray ray;
-    double t_min, t_max;
-    uint32_t skip, skip_instance;
     /* in kernel space, with unit direction */
     float origin[3], direction[3], inverse[3];
     bool negative[3];
@@ -73,13 +72,7 @@ typedef struct Line {
 
 static inline Line line_of(
     const GiTree *tree, const GiShapes *shapes, uint32_t instance, const GiTraceRay *r) {
-    Line line = {.tree = tree,
-        .shapes = shapes,
-        .instance = instance,
-        .t_min = r->t_min,
-        .t_max = r->t_max,
-        .skip = r->skip,
-        .skip_instance = r->skip_instance};
+    Line line = {.tree = tree, .shapes = shapes, .instance = instance, .given = r};
     line.ray = gi_hit_ray(
         r->origin.x, r->origin.y, r->origin.z, r->direction.x, r->direction.y, r->direction.z);
     GiVec o = gi_scale(gi_sub(r->origin, tree->center), tree->scale);
@@ -97,9 +90,11 @@ static inline Line line_of(
         line.inverse[axis] = fabs(direction[axis]) < 1e-30 ? 1e30f : (float)(1 / direction[axis]);
         line.negative[axis] = line.inverse[axis] < 0;
     }
-    double lost = 0x1p-47 * gi_largest(tree->center) + 2 * GI_TREE_GROWTH_LEAST / tree->scale;
-    seen_from_init(
-        &line.seen, gi_add(gi_scale(o, 1 / tree->scale), tree->center), lost, tree->scale);
+    if (tree->has_triangles) {
+        double lost = 0x1p-47 * gi_largest(tree->center) + 2 * GI_TREE_GROWTH_LEAST / tree->scale;
+        seen_from_init(
+            &line.seen, gi_add(gi_scale(o, 1 / tree->scale), tree->center), lost, tree->scale);
+    }
     return line;
 }
 
@@ -202,27 +197,19 @@ enum { STACK_LIMIT = GI_TREE_DEPTH_LIMIT * (GI_TREE_WIDTH - 1) + 1 };
  * are far away in large scenes. */
 static inline void prefetch_child(const GiTree *tree, const GiShapes *shapes, uint32_t child) {
     uint32_t index = gi_child_index(child);
-    const char *from;
-    size_t size;
-    switch (gi_child_kind(child)) {
-    case GI_CHILD_NODE:
-        from = (const char *)&tree->nodes[index];
-        size = sizeof *tree->nodes;
-        break;
-    case GI_CHILD_TRIANGLES:
-        from = (const char *)&shapes->triangles.corners[gi_child_first(child)];
-        size = gi_child_count(child) * sizeof *shapes->triangles.corners;
-        break;
-    case GI_CHILD_BOXES:
-        from = (const char *)&tree->box_blocks[index];
-        size = sizeof *tree->box_blocks;
-        break;
-    default:
-        from = (const char *)&tree->sphere_blocks[index];
-        size = sizeof *tree->sphere_blocks;
-        break;
+    GiChildKind kind = gi_child_kind(child);
+    const char *from = (const char *)&tree->nodes[index];
+    if (kind != GI_CHILD_NODE) {
+        from = kind == GI_CHILD_SPHERES ? (const char *)&tree->sphere_blocks[index]
+               : kind == GI_CHILD_BOXES
+                   ? (const char *)&tree->box_blocks[index]
+                   : (const char *)&shapes->triangles.corners[gi_child_first(child)];
     }
-    for (size_t i = 0; i < size; i += 64) prefetch(from + i);
+    prefetch(from);
+    prefetch(from + 64);
+    if (kind == GI_CHILD_TRIANGLES) return; /* eight rows of twelve bytes */
+    prefetch(from + 128);
+    prefetch(from + 192);
 }
 
 static inline void prefetch_shape(const GiShapes *shapes, GiShapeRef ref) {
@@ -252,16 +239,23 @@ static inline int push_children(const GiTree *tree, const GiShapes *shapes, Stac
     return count;
 }
 
-static bool line_instance(const Line *line, uint32_t index, bool any, GiTraceHit *best);
+static bool line_instance(
+    const GiShapes *shapes, uint32_t index, const GiTraceRay *ray, bool any, GiTraceHit *best);
 
 /* Whether the ray meets the shape. Of hits that are not nearer than the best, none counts. */
 static inline bool line_test(const Line *line, GiShapeRef ref, bool any, GiTraceHit *best) {
     double t;
     if (gi_shape_kind(ref) == GI_SHAPE_INSTANCE) {
-        return line_instance(line, gi_shape_index(ref), any, best);
+        GiTraceHit inner = *best; /* a copy, so that the best one may stay in registers */
+        if (!line_instance(line->shapes, gi_shape_index(ref), line->given, any, &inner)) {
+            return false;
+        }
+        *best = inner;
+        return true;
     }
-    if (ref.bits == line->skip && line->instance == line->skip_instance) return false;
-    if (!gi_hit_shape(line->shapes, ref, &line->ray, line->t_min, line->t_max, &t)) return false;
+    const GiTraceRay *given = line->given;
+    if (ref.bits == given->skip && line->instance == given->skip_instance) return false;
+    if (!gi_hit_shape(line->shapes, ref, &line->ray, given->t_min, given->t_max, &t)) return false;
     if (t > best->t) return false;
     if (t == best->t && best->shape.bits != GI_SHAPE_NONE &&
         !gi_shape_before(line->shapes, ref, line->instance, best->shape, best->instance)) {
@@ -271,86 +265,83 @@ static inline bool line_test(const Line *line, GiShapeRef ref, bool any, GiTrace
     return true;
 }
 
-/* Lowers *best, or for `any` returns at the first hit. Returns whether there was one. */
-static inline bool line_walk(const Line *line, bool any, GiTraceHit *best) {
-    const GiTree *tree = line->tree;
+/* Lowers *hit, or for `any` returns at the first hit. Returns whether there was one. */
+static inline bool line_trace(const GiTree *tree, const GiShapes *shapes, uint32_t instance,
+    const GiTraceRay *ray, bool any, GiTraceHit *hit) {
+    const Line line = line_of(tree, shapes, instance, ray);
+    GiTraceHit best = *hit;
     bool found = false;
     for (uint32_t i = 0; i < tree->unbounded_count; i++) {
-        found |= line_test(line, tree->unbounded[i], any, best);
-        if (any && found) return true;
+        found |= line_test(&line, tree->unbounded[i], any, &best);
+        if (any && found) {
+            *hit = best;
+            return true;
+        }
     }
     StackEntry stack[STACK_LIMIT];
     int count = 0;
-    float from = line_parameter(line, line->t_min), to = line_parameter(line, best->t);
+    float from = line_parameter(&line, ray->t_min), to = line_parameter(&line, best.t);
     if (tree->root != GI_CHILD_NONE) stack[count++] = (StackEntry){tree->root, from};
     while (count > 0) {
         StackEntry top = stack[--count];
         if (!(top.enter <= to)) continue;
         uint32_t index = gi_child_index(top.child), first = 0;
-        const GiShapeRef *shapes = NULL;
+        GiChildKind kind = gi_child_kind(top.child);
+        const GiShapeRef *refs = NULL;
         float enter[8];
         unsigned bits;
-        switch (gi_child_kind(top.child)) {
-        case GI_CHILD_NODE: {
+        if (kind == GI_CHILD_NODE) {
             const GiNode *node = &tree->nodes[index];
-            bits = line_boxes(line, node->low, node->high, from, to, enter);
-            count = push_children(tree, line->shapes, stack, count, node->child, bits, enter);
+            bits = line_boxes(&line, node->low, node->high, from, to, enter);
+            count = push_children(tree, shapes, stack, count, node->child, bits, enter);
             continue;
         }
-        case GI_CHILD_TRIANGLES:
-            first = gi_child_first(top.child);
-            bits = line_triangles(line, first, gi_child_count(top.child));
-            break;
-        case GI_CHILD_BOXES: {
-            const GiBoxBlock *block = &tree->box_blocks[index];
-            bits = line_boxes(line, block->low, block->high, from, to, enter);
-            shapes = block->shape;
-            break;
-        }
-        default: {
+        if (kind == GI_CHILD_SPHERES) {
             const GiSphereBlock *block = &tree->sphere_blocks[index];
-            bits = line_spheres(line, block, from, to);
-            shapes = block->shape;
-            break;
-        }
+            bits = line_spheres(&line, block, from, to);
+            refs = block->shape;
+        } else if (kind == GI_CHILD_BOXES) {
+            const GiBoxBlock *block = &tree->box_blocks[index];
+            bits = line_boxes(&line, block->low, block->high, from, to, enter);
+            refs = block->shape;
+        } else {
+            first = gi_child_first(top.child);
+            bits = line_triangles(&line, first, gi_child_count(top.child));
         }
         for (; bits != 0; bits &= bits - 1) {
             uint32_t i = (uint32_t)lowest_bit(bits);
-            GiShapeRef ref =
-                shapes != NULL ? shapes[i] : gi_shape_ref(GI_SHAPE_TRIANGLE, first + i);
-            found |= line_test(line, ref, any, best);
-            if (any && found) return true;
+            GiShapeRef ref = refs != NULL ? refs[i] : gi_shape_ref(GI_SHAPE_TRIANGLE, first + i);
+            found |= line_test(&line, ref, any, &best);
+            if (any && found) {
+                *hit = best;
+                return true;
+            }
         }
-        to = line_parameter(line, best->t);
+        to = line_parameter(&line, best.t);
     }
+    *hit = best;
     return found;
 }
 
 /* The same ray in the instance's space, where t is the same; gi_hit_to_object has the same
  * operations. An instance holds no instances, so there is one step down at most. */
-static bool line_instance(const Line *line, uint32_t index, bool any, GiTraceHit *best) {
-    const GiInstance *instance = &line->shapes->instances[index];
-    const GiAffine *to_object = &line->shapes->transforms[instance->transform].to_object;
-    const gi_hit_Ray *ray = &line->ray;
-    GiTraceRay inner = {gi_affine_point(to_object, gi_vec(ray->ox, ray->oy, ray->oz)),
-        gi_affine_vector(to_object, gi_vec(ray->dx, ray->dy, ray->dz)), line->t_min, line->t_max,
-        line->skip, line->skip_instance};
-    Line line_inside = line_of(instance->tree, line->shapes, index, &inner);
-    return line_walk(&line_inside, any, best);
-}
-
-static inline bool line_trace(
-    const GiTrace *trace, const GiTraceRay *ray, bool any, GiTraceHit *hit) {
-    Line line = line_of(trace->tree, trace->shapes, GI_SHAPE_NONE, ray);
-    *hit = (GiTraceHit){ray->t_max, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
-    return line_walk(&line, any, hit);
+static bool line_instance(
+    const GiShapes *shapes, uint32_t index, const GiTraceRay *ray, bool any, GiTraceHit *best) {
+    const GiInstance *instance = &shapes->instances[index];
+    const GiAffine *to_object = &shapes->transforms[instance->transform].to_object;
+    GiTraceRay inner = *ray;
+    inner.origin = gi_affine_point(to_object, ray->origin);
+    inner.direction = gi_affine_vector(to_object, ray->direction);
+    return any ? line_trace(instance->tree, shapes, index, &inner, true, best)
+               : line_trace(instance->tree, shapes, index, &inner, false, best);
 }
 
 static bool GI_KERNEL(closest)(const GiTrace *trace, const GiTraceRay *ray, GiTraceHit *hit) {
-    return line_trace(trace, ray, false, hit);
+    *hit = (GiTraceHit){ray->t_max, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
+    return line_trace(trace->tree, trace->shapes, GI_SHAPE_NONE, ray, false, hit);
 }
 
 static bool GI_KERNEL(any)(const GiTrace *trace, const GiTraceRay *ray) {
-    GiTraceHit hit;
-    return line_trace(trace, ray, true, &hit);
+    GiTraceHit hit = {ray->t_max, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
+    return line_trace(trace->tree, trace->shapes, GI_SHAPE_NONE, ray, true, &hit);
 }

@@ -103,8 +103,17 @@ static double choose_y(const View *view, double x, double u) {
     return clamp(h * sqrt(square) / sqrt(1 - h * h), view->y0, view->y1);
 }
 
+/* Whether the rectangle looks so large that points by area make noise: farther away they are as
+ * good, and cheaper to find. */
+static bool is_near(const GiLightRectangle *rectangle, GiVec from) {
+    enum { FAR = 4 }; /* square of the distance over area */
+    GiVec offset = gi_sub(rectangle->center, from);
+    return gi_dot(offset, offset) < FAR * rectangle->area;
+}
+
 double gi_rectangle_sample_angle(
     const GiLightRectangle *rectangle, GiVec from, const double u[2], GiVec *point) {
+    if (!is_near(rectangle, from)) return gi_rectangle_sample(rectangle, from, u, point);
     View view = view_from(rectangle, from);
     if (!(view.angle > least_angle)) return gi_rectangle_sample(rectangle, from, u, point);
     double x = choose_x(&view, u[0]), y = choose_y(&view, x, u[1]);
@@ -114,7 +123,9 @@ double gi_rectangle_sample_angle(
 }
 
 double gi_rectangle_density_angle(const GiLightRectangle *rectangle, GiVec from, GiVec point) {
-    View view = view_from(rectangle, from);
-    if (view.angle > least_angle) return 1 / view.angle;
+    if (is_near(rectangle, from)) {
+        View view = view_from(rectangle, from);
+        if (view.angle > least_angle) return 1 / view.angle;
+    }
     return gi_rectangle_density(rectangle, gi_sub(point, from));
 }

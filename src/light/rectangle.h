@@ -27,7 +27,8 @@ double gi_rectangle_sample(
 double gi_rectangle_density(const GiLightRectangle *rectangle, GiVec offset);
 
 /* The same, evenly by solid angle: the factor is that angle, whatever point is drawn, so a light
- * that is near or seen at a slant makes less noise. The density is for a point of the rectangle. */
+ * that is near makes less noise (Urena, Fajardo and King 2013); from farther away evenly by area.
+ * The density is for a point of the rectangle. */
 double gi_rectangle_sample_angle(
     const GiLightRectangle *rectangle, GiVec from, const double u[2], GiVec *point);
 double gi_rectangle_density_angle(const GiLightRectangle *rectangle, GiVec from, GiVec point);

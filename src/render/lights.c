@@ -193,7 +193,7 @@ static bool rectangle_beam(const GiStage *stage, size_t index, int i, Beam *beam
     GiVec from = point_at(&stage->scratch->points, i), to;
     double u[2];
     draw_pair(stage, i, GI_PURPOSE_LIGHT + (uint32_t)index, u);
-    double factor = gi_rectangle_sample(rectangle, from, u, &to);
+    double factor = gi_rectangle_sample_angle(rectangle, from, u, &to);
     if (!(factor > 0)) return false;
     GiVec offset = gi_sub(to, from);
     double distance = gi_length(offset);

@@ -88,8 +88,8 @@ static GiVec rectangle_emission(const GiStage *stage, const GiFlight *flight, co
     const GiWorld *world = stage->world;
     uint32_t light_index = gi_shape_info(&world->shapes, met->shape, met->instance)->shader;
     const GiLightRectangle *rectangle = &world->lights.data[light_index];
-    GiVec offset = gi_scale(met->direction, met->t);
-    double density = gi_rectangle_density(rectangle, offset);
+    GiVec point = gi_along(met->origin, met->direction, met->t);
+    double density = gi_rectangle_density_angle(rectangle, met->origin, point);
     if (!(density > 0) || !gi_stage_draws(stage, (int)light_index)) return gi_vec(0, 0, 0);
     GiVec intensity = world->scene->lights.data[light_index].intensity;
     return flight == NULL ? intensity

@@ -30,7 +30,7 @@ struct GiPool {
     bool quit;
 };
 
-enum { WORKER_LIMIT = 1024 };
+enum { WORKER_LIMIT = 1024, STACK_LEAST = 1 << 20 };
 
 static void work(Loop *loop, int worker) {
     for (;;) {
@@ -61,6 +61,20 @@ static void *run_worker(void *argument) {
     return NULL;
 }
 
+static GlintStatus start(GiPool *pool, int count, const pthread_attr_t *attributes) {
+    if (count <= 0) return GLINT_OK;
+    pool->threads_size = (size_t)count * sizeof *pool->threads;
+    pool->threads = gi_memory_allocate(pool->memory, pool->threads_size);
+    if (pool->threads == NULL) return GLINT_ERROR_MEMORY;
+    for (int i = 0; i < count; i++) {
+        if (pthread_create(&pool->threads[i], attributes, run_worker, pool) != 0) {
+            return GLINT_ERROR_THREAD;
+        }
+        pool->worker_count++;
+    }
+    return GLINT_OK;
+}
+
 GlintStatus gi_pool_create(GiMemory *memory, int thread_count, GiPool **result) {
     if (thread_count <= 0) thread_count = gi_machine_core_count();
     if (thread_count > WORKER_LIMIT) thread_count = WORKER_LIMIT;
@@ -72,20 +86,17 @@ GlintStatus gi_pool_create(GiMemory *memory, int thread_count, GiPool **result) 
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->wake, NULL);
     pthread_cond_init(&pool->done, NULL);
-    if (thread_count > 1) {
-        pool->threads_size = (size_t)(thread_count - 1) * sizeof *pool->threads;
-        pool->threads = gi_memory_allocate(memory, pool->threads_size);
-        if (pool->threads == NULL) {
-            gi_pool_destroy(pool);
-            return GLINT_ERROR_MEMORY;
-        }
-        for (int i = 0; i < thread_count - 1; i++) {
-            if (pthread_create(&pool->threads[i], NULL, run_worker, pool) != 0) {
-                gi_pool_destroy(pool);
-                return GLINT_ERROR_THREAD;
-            }
-            pool->worker_count++;
-        }
+    /* A kernel takes up to a fifth of a megabyte (kernel/bundle.h); some C libraries give less. */
+    pthread_attr_t attributes;
+    size_t stack_size = 0;
+    pthread_attr_init(&attributes);
+    pthread_attr_getstacksize(&attributes, &stack_size);
+    if (stack_size < STACK_LEAST) pthread_attr_setstacksize(&attributes, STACK_LEAST);
+    GlintStatus status = start(pool, thread_count - 1, &attributes);
+    pthread_attr_destroy(&attributes);
+    if (status != GLINT_OK) {
+        gi_pool_destroy(pool);
+        return status;
     }
     *result = pool;
     return GLINT_OK;

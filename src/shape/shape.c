@@ -202,19 +202,25 @@ static bool corner_row(const uint32_t (*rows)[3], uint32_t first, const GiMesh *
 }
 
 static GiSurfacePoint triangle_point(
-    const GiShapes *shapes, uint32_t triangle, const gi_hit_Ray *ray) {
+    const GiShapes *shapes, uint32_t triangle, GiVec origin, GiVec direction) {
     const GiTriangles *triangles = &shapes->triangles;
     const float *corners[3];
     gi_triangle_corners(triangles, triangle, corners);
-    gi_hit_Weights weights = gi_hit_weights(triangles, triangle, ray);
-    double sum = weights.u + weights.v + weights.w;
-    const double part[3] = {weights.u / sum, weights.v / sum, weights.w / sum};
+    const gi_hit_Ray ray = {.ox = origin.x,
+        .oy = origin.y,
+        .oz = origin.z,
+        .dx = direction.x,
+        .dy = direction.y,
+        .dz = direction.z};
+    gi_hit_Weights weights = gi_hit_weights(triangles, triangle, &ray);
+    double scale = 1 / (weights.u + weights.v + weights.w);
+    const double part[3] = {weights.u * scale, weights.v * scale, weights.w * scale};
     GiVec p = {0, 0, 0};
     double size = 0;
     for (int i = 0; i < 3; i++) {
         GiVec corner = corner_vec(corners[i]);
         p = gi_along(p, corner, part[i]);
-        size = fmax(size, gi_largest(corner));
+        size = gi_hit_maximum(size, gi_largest(corner));
     }
     GiVec geometric = gi_normalize(triangle_normal(corners));
     GiSurfacePoint at = facing(p, geometric, size);
@@ -237,6 +243,9 @@ static GiSurfacePoint unplaced_point(const GiShapes *shapes, GiShapeRef ref, GiV
     uint32_t i = gi_shape_index(ref);
     GiVec p = gi_along(origin, direction, t);
     if (gi_shape_kind(ref) == GI_SHAPE_SPHERE) return gi_sphere_point(&shapes->spheres[i], p);
+    if (gi_shape_kind(ref) == GI_SHAPE_TRIANGLE) {
+        return triangle_point(shapes, i, origin, direction);
+    }
     gi_hit_Ray ray =
         gi_hit_ray(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z);
     switch (gi_shape_kind(ref)) {
@@ -245,7 +254,6 @@ static GiSurfacePoint unplaced_point(const GiShapes *shapes, GiShapeRef ref, GiV
     case GI_SHAPE_DISC: return flat_point(shapes->discs[i].center, shapes->discs[i].normal, p);
     case GI_SHAPE_RECTANGLE:
         return flat_point(shapes->rectangles[i].center, shapes->rectangles[i].normal, p);
-    case GI_SHAPE_TRIANGLE: return triangle_point(shapes, i, &ray);
     default: return flat_point(shapes->planes[i].point, shapes->planes[i].normal, p);
     }
 }
