@@ -27,7 +27,7 @@ check() { # check WHAT COMMAND...: the command must succeed
 }
 opens_with_comment() { sed -n 2p "$1" | grep -q '^<!-- '; }
 at_most() { # at_most BYTES FILE
-    [ "$(wc -c <"$2")" -le "$1" ]
+    [ -f "$2" ] && [ "$(wc -c <"$2")" -le "$1" ]
 }
 is_in() { grep -qF "$1" "$2"; }
 
