@@ -34,6 +34,7 @@
     X(sampling) \
     X(scatter) \
     X(render) \
+    X(flight) \
     X(golden) \
     X(api) \
     X(load) \

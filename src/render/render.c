@@ -42,8 +42,10 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
         int tile = atomic_fetch_add_explicit(&render->next, 1, memory_order_relaxed);
         if (tile >= render->columns * render->rows || atomic_load(&render->stop)) break;
         int x = tile % render->columns * render->side, y = tile / render->columns * render->side;
-        gi_tile_draw(render->world, render->area, x, y, render->side, render->target,
-            render->scratch[worker], &counts, &control);
+        if (!gi_tile_draw(render->world, render->area, x, y, render->side, render->target,
+                render->scratch[worker], &counts, &control)) {
+            break;
+        }
         atomic_fetch_add_explicit(&render->done, 1, memory_order_relaxed);
         if (worker == 0) report(render);
     }
