@@ -34,6 +34,7 @@
     X(sampling) \
     X(scatter) \
     X(render) \
+    X(transport) \
     X(flight) \
     X(golden) \
     X(api) \
