@@ -35,6 +35,7 @@
     X(scatter) \
     X(render) \
     X(transport) \
+    X(outputs) \
     X(flight) \
     X(golden) \
     X(api) \

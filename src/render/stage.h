@@ -112,8 +112,8 @@ typedef enum GiPurpose {
     GI_PURPOSE_LIGHT /* the first of the lights; the others follow */
 } GiPurpose;
 
-static inline uint32_t gi_stage_dimension(uint32_t level, uint32_t purpose) {
-    return level << 16 | purpose;
+static inline uint64_t gi_stage_dimension(uint32_t level, uint32_t purpose) {
+    return (uint64_t)(purpose >> 16) << 32 | level << 16 | (purpose & 0xffff);
 }
 
 /* The weight of one of two ways to draw the same light, by their densities (Veach and Guibas 1995,

@@ -181,7 +181,7 @@ static bool survives(const GiStage *stage, GiFlight *flight) {
     double p = gi_largest(flight->factor);
     if (p >= 1) return true;
     GiSampler sampler = gi_stage_sampler(stage, flight->pixel);
-    uint32_t dimension = gi_stage_dimension(flight->level, GI_PURPOSE_ROULETTE);
+    uint64_t dimension = gi_stage_dimension(flight->level, GI_PURPOSE_ROULETTE);
     if (!(gi_sample_1d(&sampler, dimension) < p)) return false;
     flight->factor = gi_scale(flight->factor, 1 / p);
     return true;
