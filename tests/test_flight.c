@@ -4,6 +4,7 @@
 #include "test.h"
 
 #include "port/machine.h"
+#include "render/stage.h"
 #include "scenes.h"
 
 #include <stdio.h>
@@ -75,4 +76,69 @@ static void stops_soon(void) {
     }
 }
 
-const GiTest tests_flight[] = {TEST(stops_soon), TEST_END};
+/* ---------------------------------------------------------------- many rays */
+
+/* Two walls that face each other, each with three coats of glaze: every surface that is met sends
+ * three rays on, up to 3^11 of a level for one pixel and so more than are followed together. A
+ * third wall sends on one ray, so that pixels differ in their numbers. Light is taken away again by
+ * lights that are negative: what is left is what was rounded, which tells the order of sums. */
+static const char *const many_rays =
+    "<scene dialect='%s'><camera type='PerspectiveCamera'><viewPoint>0 0 3</viewPoint>"
+    "<viewDir>.7 .1 -.4</viewDir><viewWidth>.8</viewWidth></camera><image>8 4</image>"
+    "<samples>%d</samples>%s<light><position>.1 .5 2</position></light><light><position>-.2 -.3 -2"
+    "</position></light><light><position>.1 .5 2</position><intensity>-1 -1 -1</intensity></light>"
+    "<light><position>-.2 -.3 -2</position><intensity>-1 -1 -1</intensity></light>"
+    "<shader name='one' type='Glazed'><refractiveIndex>1.5</refractiveIndex><substrate "
+    "type='Phong'><exponent>7</exponent></substrate></shader>"
+    "<shader name='two' type='Glazed'><refractiveIndex>1.7</refractiveIndex><substrate ref='one'/>"
+    "</shader><shader name='three' type='Glazed'><refractiveIndex>2</refractiveIndex><substrate "
+    "ref='two'/></shader>"
+    "<surface type='Box'><minPt>.5 -2 -3</minPt><maxPt>.6 2 4</maxPt><shader ref='three'/>"
+    "</surface><surface type='Box'><minPt>-.6 -2 -2</minPt><maxPt>-.5 2 4</maxPt>"
+    "<shader ref='three'/></surface>"
+    "<surface type='Box'><minPt>-2 -3 -4</minPt><maxPt>2 -.4 3</maxPt><shader ref='one'/></surface>"
+    "</scene>";
+
+/* Each pixel alone is what it is among the others, so its light is summed up in the same order. */
+static void pixels_alone(void) {
+    static const char *const dialects[] = {"glint", "glint", "2012"};
+    static const char *const integrators[] = {
+        "", "<integrator type='PathIntegrator'><maxDepth>30</maxDepth></integrator>", ""};
+    for (int k = 0; k < 3; k++) {
+        static char text[4000];
+        snprintf(text, sizeof text, many_rays, dialects[k], k == 1 ? 16 : 1, integrators[k]);
+        GlintScene *scene = scene_from_text(text, NULL, 2);
+        Picture whole = picture_of_scene(scene, NULL);
+        int left = 0;
+        for (int i = 0; i < 8 * 4 && whole.pixels != NULL; i++) {
+            GlintRenderDesc desc = glint_render_desc_default();
+            desc.crop_x = i % 8, desc.crop_y = i / 8, desc.crop_width = desc.crop_height = 1;
+            Picture alone = picture_of_scene(scene, &desc);
+            if (memcmp(alone.pixels, whole.pixels + 3 * i, 3 * sizeof(float)) != 0) {
+                test_fail(__FILE__, __LINE__, "scene %d, pixel %d", k, i);
+            }
+            left += whole.pixels[3 * i] != 0;
+            picture_free(&alone);
+        }
+        CHECK(left > 8 * 4 / 2);
+        picture_free(&whole);
+        glint_scene_destroy(scene);
+    }
+}
+
+/* No two uses of random numbers share a dimension, however many lights there are. */
+static void dimensions(void) {
+    static const uint32_t purposes[] = {GI_PURPOSE_CHOICE, GI_PURPOSE_LIGHT, 65535, 65536,
+        65536 + GI_PURPOSE_BSDF, 2 * 65536, 1u << 28, UINT32_MAX};
+    enum { PURPOSES = sizeof purposes / sizeof purposes[0], LEVELS = 70 };
+    for (uint32_t a = 0; a < PURPOSES * LEVELS; a++) {
+        for (uint32_t b = 0; b < a; b++) {
+            uint64_t first = gi_stage_dimension(a / PURPOSES, purposes[a % PURPOSES]);
+            if (first == gi_stage_dimension(b / PURPOSES, purposes[b % PURPOSES])) {
+                test_fail(__FILE__, __LINE__, "levels %u and %u", a / PURPOSES, b / PURPOSES);
+            }
+        }
+    }
+}
+
+const GiTest tests_flight[] = {TEST(stops_soon), TEST(pixels_alone), TEST(dimensions), TEST_END};
