@@ -431,7 +431,8 @@ typedef struct GlintRenderDesc {
      * rounding, these parts sum up to the whole. */
     int light;
     /* Where to put what the camera rays met, a value a pixel in the order of the pixels; each may
-     * be null (default). Means over the samples of a pixel, but for the surface. */
+     * be null (default). Means over the samples of a pixel, but for the surface. A light is met as
+     * if nothing were there. */
     float *depth;      /* distance from the origin of the ray; 0 where it meets nothing */
     float *normal;     /* 3 a pixel: the normal that is shaded with; 0 0 0 where nothing is met */
     float *albedo;     /* 3 a pixel: the diffuse colour, textures included */
@@ -459,7 +460,8 @@ typedef struct GlintHit {
     double t;
     double point[3];
     double normal[3];       /* unit, outward, never turned toward the ray */
-    GlintSurfaceId surface; /* in the order in which surfaces were added, groups not counted */
+    GlintSurfaceId surface; /* in the order in which surfaces were added, groups not counted; zero:
+                               a rectangle light of a dialect where these can be seen */
     GlintShaderId shader;
 } GlintHit;
 
