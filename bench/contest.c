@@ -78,7 +78,7 @@ static void compare_pictures(Contest *contest) {
 void contest_run(const Field *field, const BenchScene *scene, Contest *contest) {
     memset(contest, 0, sizeof *contest);
     contest->scene = *scene;
-    contest->surface_count = sample_surface_count(&scene->sample);
+    contest->surface_count = sample_drawn_count(&scene->sample);
     for (int rep = -1; rep < field->rep_count; rep++) {
         for (int program = 0; program < PROGRAM_COUNT; program++) {
             if (field->paths[program][0] == '\0') continue;
