@@ -121,7 +121,7 @@ GlintLightDesc sample_light(const Sample *sample, int index) {
     GlintLightDesc light = glint_light_desc_default();
     Lamp lamp = {{0, 0, 0}, 1};
     switch (sample->kind) {
-    case SAMPLE_SHADOW: put_lamp(&light, 6, 4, 2); return light;
+    case SAMPLE_SHADOW: put_lamp(&light, 6, 4, 5); return light;
     case SAMPLE_ROOM: put_lamp(&light, 3.99, 1.2, 14); return light;
     case SAMPLE_TINY: lamp = tiny_lamps[index]; break;
     case SAMPLE_LIGHTS: lamp = spiral_lamp((uint64_t)index, sample->count); break;
