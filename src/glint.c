@@ -259,6 +259,7 @@ GlintStatus glint_render(
     scene->stats.trace_seconds = gi_machine_seconds() - start;
     scene->stats.camera_rays = counts.camera_rays;
     scene->stats.shadow_rays = counts.shadow_rays;
+    scene->stats.other_rays = counts.other_rays;
     return status == GLINT_OK ? status
                               : gi_error_set(error, status, "%s", glint_status_text(status));
 }

@@ -477,6 +477,7 @@ typedef struct GlintStats {
     double read_seconds, build_seconds, trace_seconds;
     uint64_t read_bytes;
     uint64_t camera_rays, shadow_rays;
+    uint64_t other_rays; /* mirrored, refracted, scattered */
     uint64_t primitive_count, node_count, leaf_count, tree_bytes;
     double sah_cost;      /* expected node visits plus primitive block tests of a random ray */
     uint64_t memory_peak; /* bytes asked of the allocator at the same time */
