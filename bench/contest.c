@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "contest.h"
 
+#include "apart.h"
 #include "message.h"
 #include "picture.h"
 #include "process.h"
 #include "program.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -40,7 +42,7 @@ static void run_once(const Field *field, Contest *contest, Program program, int 
     program_command(field, &contest->scene, program, threads, warm_up, &command);
     remove(command.picture);
     ProcessResult result = process_run(command.arguments, command.output, command.error);
-    if (!result.good && is_glint(program)) {
+    if (!result.good && program == PROGRAM_GLINT) {
         message_show_file(command.error);
         message_fail("%s: %s failed", contest->scene.name, command.arguments[0]);
     }
@@ -55,7 +57,10 @@ static void run_once(const Field *field, Contest *contest, Program program, int 
     entry->values[MEASURE_WALL][rep] = result.wall_seconds;
     entry->values[MEASURE_CPU][rep] = result.cpu_seconds;
     entry->values[MEASURE_PEAK][rep] = (double)result.peak_size;
-    if (is_glint(program)) program_phases(command.output, entry, rep);
+    if (is_glint(program)) {
+        program_phases(command.output, entry, rep);
+        entry->read_size += (double)scenes_mesh_size(&contest->scene, field->cache);
+    }
     entry->rep_count = rep + 1;
 }
 
@@ -71,14 +76,67 @@ static void compare_pictures(Contest *contest) {
     const Entry *ours = contest->entries[PROGRAM_GLINT];
     const Entry *others = contest->entries[PROGRAM_OTHER_GLINT];
     if (others->rep_count > 0 && ours->pixel_hash != others->pixel_hash) {
-        complain(contest, contest_program_name(PROGRAM_OTHER_GLINT), "draws another picture");
+        contest->new_picture = true;
     }
 }
+
+static void trace_apart(const Field *field, Contest *contest) {
+    char path[PATH_SIZE];
+    scenes_file(&contest->scene, FORMAT_XML, field->cache, path);
+    for (int threads = 1; threads <= THREADS_MAX; threads++) {
+        Entry *entry = &contest->entries[PROGRAM_GLINT][threads - 1];
+        apart_measure(&contest->scene, path, threads, entry->rep_count,
+            entry->values[MEASURE_CAMERA], entry->values[MEASURE_SHADOW]);
+    }
+}
+
+/* ---------------------------------------------------------------- the other Glint */
+
+const char *contest_measure_name(Measure measure) {
+    static const char *const names[MEASURE_COUNT] = {
+        [MEASURE_WALL] = "wall",
+        [MEASURE_CPU] = "cpu",
+        [MEASURE_PEAK] = "memory",
+        [MEASURE_ALLOCATED] = "allocated",
+        [MEASURE_READ] = "read",
+        [MEASURE_BUILD] = "build",
+        [MEASURE_TRACE] = "trace",
+        [MEASURE_WRITE] = "write",
+        [MEASURE_CAMERA] = "camera",
+        [MEASURE_SHADOW] = "shadow",
+    };
+    return names[measure];
+}
+
+double contest_against(const Contest *contest, Measure measure, int threads) {
+    static const double too_short = 0.004; /* seconds that say nothing */
+    const Entry *ours = &contest->entries[PROGRAM_GLINT][threads - 1];
+    const Entry *other = &contest->entries[PROGRAM_OTHER_GLINT][threads - 1];
+    const Spread *a = &ours->spreads[measure], *b = &other->spreads[measure];
+    if (ours->rep_count == 0 || other->rep_count == 0 || !(a->least > 0) || !(b->least > 0)) {
+        return 0;
+    }
+    bool is_time = measure != MEASURE_PEAK && measure != MEASURE_ALLOCATED;
+    if (is_time && a->median < too_short && b->median < too_short) return 0;
+    double of_medians = b->median / a->median, of_least = b->least / a->least;
+    return fabs(log(of_medians)) < fabs(log(of_least)) ? of_medians : of_least;
+}
+
+static void count_slower(Contest *contest) {
+    for (int measure = 0; measure < MEASURE_CAMERA; measure++) {
+        for (int threads = 1; threads <= THREADS_MAX; threads++) {
+            double ratio = contest_against(contest, (Measure)measure, threads);
+            if (ratio > 0 && ratio < SLOWER) contest->slower_count++;
+        }
+    }
+}
+
+/* ---------------------------------------------------------------- the whole */
 
 void contest_run(const Field *field, const BenchScene *scene, Contest *contest) {
     memset(contest, 0, sizeof *contest);
     contest->scene = *scene;
-    contest->surface_count = sample_surface_count(&scene->sample);
+    contest->surface_count = sample_drawn_count(&scene->sample);
     for (int rep = -1; rep < field->rep_count; rep++) {
         for (int program = 0; program < PROGRAM_COUNT; program++) {
             if (field->paths[program][0] == '\0') continue;
@@ -89,6 +147,7 @@ void contest_run(const Field *field, const BenchScene *scene, Contest *contest) 
             }
         }
     }
+    trace_apart(field, contest);
     for (int program = 0; program < PROGRAM_COUNT; program++) {
         for (int i = 0; i < THREADS_MAX; i++) {
             Entry *entry = &contest->entries[program][i];
@@ -100,6 +159,7 @@ void contest_run(const Field *field, const BenchScene *scene, Contest *contest) 
         }
     }
     compare_pictures(contest);
+    count_slower(contest);
 }
 
 const Entry *contest_best_povray(const Contest *contest, int threads) {

@@ -26,13 +26,16 @@ typedef struct Field {
 } Field;
 
 typedef enum Measure {
-    MEASURE_WALL,  /* seconds */
-    MEASURE_CPU,   /* seconds */
-    MEASURE_PEAK,  /* bytes */
-    MEASURE_READ,  /* bytes a second; this one and the rest: Glint only */
-    MEASURE_BUILD, /* primitives a second */
-    MEASURE_TRACE, /* rays a second */
-    MEASURE_WRITE, /* seconds */
+    MEASURE_WALL, /* seconds */
+    MEASURE_CPU,
+    MEASURE_PEAK,      /* resident bytes of the process */
+    MEASURE_ALLOCATED, /* bytes asked for, touched or not; this one and the rest: Glint only */
+    MEASURE_READ,      /* seconds, as those that follow */
+    MEASURE_BUILD,
+    MEASURE_TRACE,
+    MEASURE_WRITE,
+    MEASURE_CAMERA, /* camera rays alone, without lights; this one and the next: see apart.h */
+    MEASURE_SHADOW, /* what lights add to that: shading and shadow rays */
     MEASURE_COUNT
 } Measure;
 
@@ -41,7 +44,8 @@ enum { THREADS_MAX = 2, REP_MAX = 100 };
 typedef struct Entry {
     int rep_count; /* 0: did not run, or broke down */
     bool broken;
-    uint64_t pixel_hash, file_hash; /* of the picture as .pfm and as .png */
+    uint64_t pixel_hash, file_hash;                         /* of the picture as .pfm and as .png */
+    double read_size, primitives, camera_rays, shadow_rays; /* what the seconds were spent on */
     double values[MEASURE_COUNT][REP_MAX];
     Spread spreads[MEASURE_COUNT];
 } Entry;
@@ -49,16 +53,28 @@ typedef struct Entry {
 typedef struct Contest {
     BenchScene scene;
     uint64_t surface_count;
-    int fault_count; /* pictures that are not the same although they should be */
+    int fault_count;  /* pictures that are not the same although they should be */
+    int slower_count; /* phases in which the other Glint is clearly faster */
+    bool new_picture; /* the other Glint draws another one */
     Entry entries[PROGRAM_COUNT][THREADS_MAX];
 } Contest;
 
 /* "glint", "tachyon", "povray +BM1", ... */
 const char *contest_program_name(Program program);
 
-/* Fills the contest. Every Glint run has to draw the same picture; each that does not is told on
- * standard error. A Glint that fails ends the program, a peer only leaves the contest. */
+/* Below this the other Glint's time divided by ours says that we have become slower. */
+#define SLOWER 0.97
+
+/* Fills the contest. Every run of a Glint has to draw the same picture; each that does not is told
+ * on standard error. A Glint that fails ends the program; the other one, which may not know what
+ * the scene has, and peers only leave the contest. */
 void contest_run(const Field *field, const BenchScene *scene, Contest *contest);
+
+const char *contest_measure_name(Measure measure);
+
+/* How many times as long the other Glint's measure takes: of the medians, or of the least when that
+ * is nearer to 1, so that one disturbed program is no verdict. 0: unknown, or too short to tell. */
+double contest_against(const Contest *contest, Measure measure, int threads);
 
 /* The entry with the shortest median among the program's relatives (POV-Ray has two trees). Null:
  * none ran. */

@@ -6,7 +6,9 @@
 #include "contest.h"
 #include "machine.h"
 #include "message.h"
+#include "noise.h"
 #include "options.h"
+#include "page.h"
 #include "picture.h"
 #include "process.h"
 #include "report.h"
@@ -77,6 +79,9 @@ static void report_details(const Contest *contests, int count, const EncodeResul
 static void save(const Contest *contests, int count, const EncodeResult *encode, const char *path) {
     FILE *file = fopen(path, "w");
     if (file == NULL) message_fail("%s cannot be written", path);
+    char machine[512];
+    machine_describe(machine, sizeof machine);
+    fprintf(file, "# %s\n", machine);
     report_csv(contests, count, encode, file);
     bool good = !ferror(file);
     if (fclose(file) != 0 || !good) message_fail("%s cannot be written", path);
@@ -99,14 +104,20 @@ int main(int argc, char **argv) {
     if (mkdir(field.cache, 0777) != 0 && errno != EEXIST) {
         message_fail("%s cannot be made", field.cache);
     }
+    if (options.noise) {
+        noise_run(field.cache, options.results, options.pictures);
+        free(contests);
+        return 0;
+    }
     field.rep_count = options.rep_count;
     find_programs(&options, folder, &field);
 
-    int fault_count = 0;
+    int fault_count = 0, slower_count = 0;
     for (int i = 0; i < count; i++) {
         contest_run(&field, &scenes[i], &contests[i]);
         report_scene(&contests[i]);
         fault_count += contests[i].fault_count;
+        slower_count += contests[i].slower_count;
     }
     if (count > 1) report_summary(contests, count);
     EncodeResult encode = picture_encode(options.rep_count);
@@ -119,7 +130,9 @@ int main(int argc, char **argv) {
         message_format(text, sizeof text, "%s/%s", options.results, name);
         save(contests, count, &encode, text);
     }
+    if (options.results != NULL && options.page != NULL) page_write(options.results, options.page);
     free(contests);
     if (fault_count > 0) message_fail("%d wrong pictures, see above", fault_count);
-    return 0;
+    if (slower_count > 0) printf("slower than the other glint in %d cases\n", slower_count);
+    return slower_count > 0 ? 3 : 0;
 }

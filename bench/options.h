@@ -5,11 +5,14 @@
 #include <stdbool.h>
 
 typedef struct Options {
-    const char *scenes;  /* comma-separated */
-    const char *glint;   /* null: beside this program */
-    const char *against; /* null: no second one */
-    const char *csv;     /* null: none */
-    const char *results; /* folder for the CSV named for the machine; null: none */
+    const char *scenes;   /* comma-separated */
+    const char *glint;    /* null: beside this program */
+    const char *against;  /* null: no second one */
+    const char *csv;      /* null: none */
+    const char *results;  /* folder for the CSV named for the machine; null: none */
+    const char *page;     /* made of the folder of results; null: none */
+    const char *pictures; /* folder for the pictures of noise; null: none */
+    bool noise;           /* measure that instead */
     int rep_count;
     int edge; /* of a picture, pixels */
 } Options;

@@ -67,6 +67,49 @@ ProcessResult process_run(
     return result;
 }
 
+static bool read_all(int file, char *bytes, size_t size) {
+    while (size > 0) {
+        ssize_t length = read(file, bytes, size);
+        if (length < 0 && errno == EINTR) continue;
+        if (length <= 0) return false;
+        bytes += length;
+        size -= (size_t)length;
+    }
+    return true;
+}
+
+static bool write_all(int file, const char *bytes, size_t size) {
+    while (size > 0) {
+        ssize_t length = write(file, bytes, size);
+        if (length < 0 && errno == EINTR) continue;
+        if (length <= 0) return false;
+        bytes += length;
+        size -= (size_t)length;
+    }
+    return true;
+}
+
+bool process_call(ProcessFn function, const void *context, void *result, size_t size) {
+    int ends[2];
+    if (pipe(ends) != 0) return false;
+    fflush(NULL);
+    pid_t process = fork();
+    if (process == 0) {
+        close(ends[0]);
+        function(context, result);
+        bool good = write_all(ends[1], result, size);
+        fflush(NULL);
+        _exit(good ? 0 : 1);
+    }
+    close(ends[1]);
+    bool good = process > 0 && read_all(ends[0], result, size);
+    close(ends[0]);
+    int status = 0;
+    pid_t ended = -1;
+    while (process > 0 && (ended = waitpid(process, &status, 0)) < 0 && errno == EINTR) {}
+    return good && ended == process && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
 bool process_find(const char *name, char *path, size_t size) {
     const char *folder = getenv("PATH");
     while (folder != NULL && *folder != '\0') {

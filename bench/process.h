@@ -16,6 +16,11 @@ typedef struct ProcessResult {
  * input is empty. A program that cannot be started is not good. */
 ProcessResult process_run(char *const arguments[], const char *output_path, const char *error_path);
 
+/* Calls the function in a process of its own, so that the memory it takes does not count as this
+ * one's, and hands back what it left in result. False: it did not end well. */
+typedef void (*ProcessFn)(const void *context, void *result);
+bool process_call(ProcessFn function, const void *context, void *result, size_t size);
+
 /* The path of a program in PATH. */
 bool process_find(const char *name, char *path, size_t size);
 

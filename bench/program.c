@@ -90,18 +90,16 @@ void program_command(const Field *field, const BenchScene *scene, Program progra
 
 /* ---------------------------------------------------------------- phases */
 
-/* The number after "key": behind "object". The JSON is our own: a line, keys in a known order. */
+/* The number after "key": behind "object"; 0 where an older Glint has none. The JSON is our own: a
+ * line, keys in a known order. */
 static double number(const char *json, const char *object, const char *key) {
     char quoted[32];
     message_format(quoted, sizeof quoted, "\"%s\": {", object);
     const char *place = strstr(json, quoted);
     message_format(quoted, sizeof quoted, "\"%s\": ", key);
     if (place != NULL) place = strstr(place, quoted);
-    if (place == NULL) message_fail("glint's --stats=json has no %s.%s", object, key);
-    return strtod(place + strlen(quoted), NULL);
+    return place != NULL ? strtod(place + strlen(quoted), NULL) : 0;
 }
-
-static double rate(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
 
 void program_phases(const char *output_path, Entry *entry, int rep) {
     char json[16384];
@@ -109,10 +107,13 @@ void program_phases(const char *output_path, Entry *entry, int rep) {
     size_t length = file != NULL ? fread(json, 1, sizeof json - 1, file) : 0;
     if (file != NULL) fclose(file);
     json[length] = '\0';
-    entry->values[MEASURE_READ][rep] =
-        rate(number(json, "scene_counts", "bytes"), number(json, "seconds", "read"));
-    entry->values[MEASURE_BUILD][rep] =
-        rate(number(json, "tree", "primitives"), number(json, "seconds", "build"));
-    entry->values[MEASURE_TRACE][rep] = number(json, "rays", "per_second");
+    entry->values[MEASURE_READ][rep] = number(json, "seconds", "read");
+    entry->values[MEASURE_BUILD][rep] = number(json, "seconds", "build");
+    entry->values[MEASURE_TRACE][rep] = number(json, "seconds", "trace");
     entry->values[MEASURE_WRITE][rep] = number(json, "seconds", "write");
+    entry->values[MEASURE_ALLOCATED][rep] = number(json, "memory", "allocated_peak");
+    entry->read_size = number(json, "scene_counts", "bytes");
+    entry->primitives = number(json, "tree", "primitives");
+    entry->camera_rays = number(json, "rays", "camera");
+    entry->shadow_rays = number(json, "rays", "shadow");
 }

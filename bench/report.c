@@ -11,6 +11,12 @@ static double ratio(const Contest *contest, const Entry *other, int threads) {
     return other->spreads[MEASURE_WALL].median / ours->spreads[MEASURE_WALL].median;
 }
 
+/* Millions a second. */
+static double rate(double amount, const Entry *entry, Measure measure) {
+    double seconds = entry->spreads[measure].median;
+    return seconds > 0 ? 1e-6 * amount / seconds : 0;
+}
+
 enum { RIVAL_TACHYON, RIVAL_POVRAY, RIVAL_OTHER_GLINT, RIVAL_COUNT };
 static const char *const rival_names[] = {"Tachyon", "POV-Ray", "the other glint"};
 
@@ -46,19 +52,40 @@ static void print_entry(const Contest *contest, Program program, int threads) {
         printf(" %7s", "-");
     }
     if (program <= PROGRAM_OTHER_GLINT) {
-        printf(" %8.0f %8.2f %8.2f %8.1f", 1e-6 * spreads[MEASURE_READ].median,
-            1e-6 * spreads[MEASURE_BUILD].median, 1e-6 * spreads[MEASURE_TRACE].median,
-            1e3 * spreads[MEASURE_WRITE].median);
+        double rays = entry->camera_rays + entry->shadow_rays;
+        printf(" %8.0f %8.2f %8.2f", rate(entry->read_size, entry, MEASURE_READ),
+            rate(entry->primitives, entry, MEASURE_BUILD), rate(rays, entry, MEASURE_TRACE));
+        printf(" %8.2f %8.2f %8.1f", rate(entry->camera_rays, entry, MEASURE_CAMERA),
+            rate(entry->shadow_rays, entry, MEASURE_SHADOW), 1e3 * spreads[MEASURE_WRITE].median);
     }
     putchar('\n');
+}
+
+/* Phase by phase; above 1 the one that is measured needs less. */
+static void print_against(const Contest *contest) {
+    const Entry *other = contest->entries[PROGRAM_OTHER_GLINT];
+    if (other[0].broken) puts("  the other glint cannot draw this scene");
+    if (other[0].rep_count == 0) return;
+    for (int threads = 1; threads <= THREADS_MAX; threads++) {
+        printf("  other / this, %d thread%s", threads, threads == 1 ? ": " : "s:");
+        for (int measure = 0; measure < MEASURE_CAMERA; measure++) {
+            double times = contest_against(contest, (Measure)measure, threads);
+            if (times == 0) continue;
+            printf("  %s %.3f%s", contest_measure_name((Measure)measure), times,
+                times < SLOWER ? " SLOWER" : "");
+        }
+        putchar('\n');
+    }
+    if (contest->new_picture) puts("  the other glint draws another picture");
 }
 
 void report_scene(const Contest *contest) {
     printf("\n%s: %" PRIu64 " surfaces, %d x %d\n", contest->scene.name, contest->surface_count,
         contest->scene.sample.width, contest->scene.sample.height);
-    printf("  %-14s %10s %-19s %10s %8s %7s %8s %8s %8s %8s\n", "program, threads", "wall ms",
-        " (range)", "cpu ms", "peak MiB", "B/surf.", "read", "build", "trace", "write");
-    printf("  %79s %8s %8s %8s %8s\n", "", "MB/s", "Mprim/s", "Mray/s", "ms");
+    printf("  %-14s %10s %-19s %10s %8s %7s %8s %8s %8s %8s %8s %8s\n", "program, threads",
+        "wall ms", " (range)", "cpu ms", "peak MiB", "B/surf.", "read", "build", "trace", "camera",
+        "shadow", "write");
+    printf("  %79s %8s %8s %8s %8s %8s\n", "MB/s", "Mprim/s", "Mray/s", "Mray/s", "Mray/s", "ms");
     for (int program = 0; program < PROGRAM_COUNT; program++) {
         for (int threads = 1; threads <= THREADS_MAX; threads++) {
             print_entry(contest, (Program)program, threads);
@@ -71,6 +98,7 @@ void report_scene(const Contest *contest) {
                 rival_names[rival], two);
         }
     }
+    print_against(contest);
     if (contest->fault_count > 0) printf("  WRONG PICTURES: %d\n", contest->fault_count);
     fflush(stdout);
 }
@@ -132,18 +160,25 @@ static void write_row(const Contest *contest, Program program, int threads, FILE
         spreads[MEASURE_PEAK].median / (double)contest->surface_count,
         ratio(contest, entry, threads));
     if (program <= PROGRAM_OTHER_GLINT) {
-        fprintf(file, ",%.1f,%.3f,%.3f,%.3f\n", 1e-6 * spreads[MEASURE_READ].median,
-            1e-6 * spreads[MEASURE_BUILD].median, 1e-6 * spreads[MEASURE_TRACE].median,
-            1e3 * spreads[MEASURE_WRITE].median);
+        double rays = entry->camera_rays + entry->shadow_rays;
+        fprintf(file, ",%.1f,%.3f,%.3f,%.3f,%.3f,%.1f,%.3f,%.3f,%.3f,%.3f\n",
+            spreads[MEASURE_ALLOCATED].median / (double)contest->surface_count,
+            1e3 * spreads[MEASURE_READ].median, 1e3 * spreads[MEASURE_BUILD].median,
+            1e3 * spreads[MEASURE_TRACE].median, 1e3 * spreads[MEASURE_WRITE].median,
+            rate(entry->read_size, entry, MEASURE_READ),
+            rate(entry->primitives, entry, MEASURE_BUILD), rate(rays, entry, MEASURE_TRACE),
+            rate(entry->camera_rays, entry, MEASURE_CAMERA),
+            rate(entry->shadow_rays, entry, MEASURE_SHADOW));
     } else {
-        fputs(",,,,\n", file);
+        fputs(",,,,,,,,,,\n", file);
     }
 }
 
 void report_csv(const Contest *contests, int count, const EncodeResult *encode, FILE *file) {
     fputs("scene,program,threads,surfaces,width,height,runs,wall_ms,wall_ms_least,wall_ms_most,"
-          "cpu_ms,peak_mib,peak_bytes_per_surface,wall_to_glint,read_mb_per_second,"
-          "build_mprim_per_second,trace_mray_per_second,write_ms\n",
+          "cpu_ms,peak_mib,peak_bytes_per_surface,wall_to_glint,allocated_bytes_per_surface,"
+          "read_ms,build_ms,trace_ms,write_ms,read_mb_per_second,build_mprim_per_second,"
+          "trace_mray_per_second,camera_mray_per_second,shadow_mray_per_second\n",
         file);
     for (int i = 0; i < count; i++) {
         for (int program = 0; program < PROGRAM_COUNT; program++) {
@@ -152,7 +187,7 @@ void report_csv(const Contest *contests, int count, const EncodeResult *encode, 
             }
         }
     }
-    fprintf(file, "png-encode,glint,1,,%d,%d,,%.3f,%.3f,%.3f,,,,,,,,%.3f\n", ENCODE_EDGE,
+    fprintf(file, "png-encode,glint,1,,%d,%d,,%.3f,%.3f,%.3f,,,,,,,,,%.3f,,,,,\n", ENCODE_EDGE,
         ENCODE_EDGE, 1e3 * encode->seconds.median, 1e3 * encode->seconds.least,
         1e3 * encode->seconds.most, 1e3 * encode->seconds.median);
 }

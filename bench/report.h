@@ -7,7 +7,8 @@
 
 #include <stdio.h>
 
-/* The table of one scene, and how many times as fast as the others Glint is. */
+/* The table of one scene, how many times as fast as the others Glint is, and as the other Glint in
+ * each phase. */
 void report_scene(const Contest *contest);
 
 /* One line a scene: the ratios at a glance. */

@@ -24,6 +24,10 @@ int scenes_parse(const char *names, int edge, BenchScene scenes[SCENE_MAX]);
 /* Whether a sample can be told in the format. */
 bool scenes_has(const BenchScene *scene, SceneFormat format);
 
-/* The path in the folder cache, and the file too: it is written when there is none. */
+/* The path in the folder cache, and the file too, with the one that it names: they are written when
+ * there are none. */
 void scenes_file(
     const BenchScene *scene, SceneFormat format, const char *cache, char path[PATH_SIZE]);
+
+/* Bytes of the mesh that the XML file names; 0: none. */
+uint64_t scenes_mesh_size(const BenchScene *scene, const char *cache);

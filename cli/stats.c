@@ -20,7 +20,8 @@ uint64_t cli_stats_resident_peak(void) {
 }
 
 double cli_stats_rays_per_second(const CliStats *stats) {
-    double rays = (double)(stats->library.camera_rays + stats->library.shadow_rays);
+    double rays = (double)(stats->library.camera_rays + stats->library.shadow_rays +
+                           stats->library.other_rays);
     return stats->library.trace_seconds > 0 ? rays / stats->library.trace_seconds : 0;
 }
 
@@ -80,6 +81,7 @@ void cli_stats_print_text(const CliStats *stats) {
     fputs(" rays\n", stderr);
     print_count("camera", library->camera_rays);
     print_count("shadow", library->shadow_rays);
+    if (library->other_rays > 0) print_count("other", library->other_rays);
     fprintf(stderr, "  %-10s %12s\n", "per second",
         scaled(cli_stats_rays_per_second(stats), "", text, sizeof text));
     fputs(" tree\n", stderr);

@@ -77,6 +77,7 @@ void cli_stats_print_json(const CliStats *stats) {
     print_real("total", stats->total_seconds, "}, \"rays\": {");
     print_count("camera", library->camera_rays, ", ");
     print_count("shadow", library->shadow_rays, ", ");
+    print_count("other", library->other_rays, ", ");
     print_real("per_second", cli_stats_rays_per_second(stats), "}, \"scene_counts\": {");
     print_count("surfaces", stats->scene.surface_count, ", ");
     print_count("lights", stats->scene.light_count, ", ");

@@ -10,6 +10,7 @@
  * is the rounding; 10,000 spheres: no pixel by more than 1 step; 10,000 solids: one pixel. */
 #include "samples/write.h"
 
+#include <inttypes.h>
 #include <math.h>
 
 static void cross(const double a[3], const double b[3], double unit[3]) {
@@ -50,7 +51,7 @@ static void write_head(const Sample *sample, FILE *file) {
         write_scaled(file, " color rgb ", light.intensity, 1);
         fputs(" }\n", file);
     }
-    for (int i = 0; i < SAMPLE_SHADER_COUNT; i++) {
+    for (int i = 0; i < sample_shader_count(sample); i++) {
         GlintShaderDesc shader = sample_shader(i);
         fprintf(file, "#declare %s = texture { pigment { color rgb ", sample_shader_name(i));
         write_scaled(file, "", shader.diffuse_color, 1);
@@ -91,11 +92,44 @@ static void write_surface(const SampleSurface *surface, FILE *file) {
     fprintf(file, " texture { %s } }\n", sample_shader_name(surface->shader_index));
 }
 
-void sample_write_povray(const Sample *sample, FILE *file) {
+static void write_vectors(const Sample *sample, bool normals, FILE *file) {
+    uint64_t count = sample_vertex_count(sample);
+    fprintf(file, "%s_vectors { %" PRIu64, normals ? "normal" : "vertex", count);
+    for (uint64_t i = 0; i < count; i++) {
+        double position[3], normal[3];
+        sample_vertex(sample, i, position, normal);
+        const double *p = normals ? normal : position;
+        fprintf(file, ",\n<%.9g,%.9g,%.9g>", p[0], p[1], p[2]);
+    }
+    fputs(" }\n", file);
+}
+
+/* Faces without normal indices take those of their vertices. */
+static void write_mesh(const Sample *sample, int shader_index, FILE *file) {
+    fputs("mesh2 {\n", file);
+    write_vectors(sample, false, file);
+    write_vectors(sample, true, file);
+    uint64_t count = sample_triangle_count(sample);
+    fprintf(file, "face_indices { %" PRIu64, count);
+    for (uint64_t i = 0; i < count; i++) {
+        uint32_t corners[3];
+        sample_triangle(sample, i, corners);
+        fprintf(
+            file, ",\n<%" PRIu32 ",%" PRIu32 ",%" PRIu32 ">", corners[0], corners[1], corners[2]);
+    }
+    fprintf(file, " }\ntexture { %s } }\n", sample_shader_name(shader_index));
+}
+
+void sample_write_povray(const Sample *sample, const char *beside, FILE *file) {
+    (void)beside;
     write_head(sample, file);
     uint64_t count = sample_surface_count(sample);
     for (uint64_t i = 0; i < count; i++) {
         SampleSurface surface = sample_surface(sample, i);
-        write_surface(&surface, file);
+        if (surface.desc.type == GLINT_SURFACE_MESH) {
+            write_mesh(sample, surface.shader_index, file);
+        } else {
+            write_surface(&surface, file);
+        }
     }
 }

@@ -30,7 +30,7 @@ static void write_head(const Sample *sample, FILE *file) {
         fprintf(file, "LIGHT CENTER %.9g %.9g %.9g RAD 0.001 COLOR %.9g %.9g %.9g\n", p[0], p[1],
             p[2], d[0], d[1], d[2]);
     }
-    for (int i = 0; i < SAMPLE_SHADER_COUNT; i++) {
+    for (int i = 0; i < sample_shader_count(sample); i++) {
         GlintShaderDesc shader = sample_shader(i);
         d = shader.diffuse_color;
         fprintf(file,
@@ -61,12 +61,31 @@ static void write_box(const SampleSurface *surface, FILE *file) {
     }
 }
 
-void sample_write_tachyon(const Sample *sample, FILE *file) {
+static void write_mesh(const Sample *sample, int shader_index, FILE *file) {
+    uint64_t count = sample_triangle_count(sample);
+    for (uint64_t i = 0; i < count; i++) {
+        uint32_t corners[3];
+        double positions[3][3], normals[3][3];
+        sample_triangle(sample, i, corners);
+        fputs("STRI", file);
+        for (int k = 0; k < 3; k++) sample_vertex(sample, corners[k], positions[k], normals[k]);
+        for (int k = 0; k < 6; k++) {
+            const double *p = k < 3 ? positions[k] : normals[k - 3];
+            fprintf(file, " %c%d %.9g %.9g %.9g", k < 3 ? 'V' : 'N', k % 3, p[0], p[1], p[2]);
+        }
+        fprintf(file, " %s\n", sample_shader_name(shader_index));
+    }
+}
+
+void sample_write_tachyon(const Sample *sample, const char *beside, FILE *file) {
+    (void)beside;
     write_head(sample, file);
     uint64_t count = sample_surface_count(sample);
     for (uint64_t i = 0; i < count; i++) {
         SampleSurface surface = sample_surface(sample, i);
-        if (surface.desc.type == GLINT_SURFACE_BOX) {
+        if (surface.desc.type == GLINT_SURFACE_MESH) {
+            write_mesh(sample, surface.shader_index, file);
+        } else if (surface.desc.type == GLINT_SURFACE_BOX) {
             write_box(&surface, file);
         } else {
             const double *p = surface.desc.center;

@@ -259,6 +259,7 @@ GlintStatus glint_render(
     scene->stats.trace_seconds = gi_machine_seconds() - start;
     scene->stats.camera_rays = counts.camera_rays;
     scene->stats.shadow_rays = counts.shadow_rays;
+    scene->stats.other_rays = counts.other_rays;
     return status == GLINT_OK ? status
                               : gi_error_set(error, status, "%s", glint_status_text(status));
 }
@@ -278,12 +279,13 @@ bool glint_trace(const GlintScene *scene, const GlintRay *ray, GlintHit *hit) {
     GiSurfacePoint at = gi_shape_point(&world->shapes, found.shape, found.instance, inner.origin,
         inner.direction, found.t, world->rules->cone_geometric);
     const GiShapeInfo *info = gi_shape_info(&world->shapes, found.shape, found.instance);
+    bool is_light = gi_shape_kind(found.shape) == GI_SHAPE_RECTANGLE;
     *hit = (GlintHit){
         .t = found.t,
         .point = {at.point.x, at.point.y, at.point.z},
         .normal = {at.normal.x, at.normal.y, at.normal.z},
-        .surface = {info->order + 1},
-        .shader = {info->shader},
+        .surface = {is_light ? 0 : info->order + 1},
+        .shader = {is_light ? 0 : info->shader},
     };
     return true;
 }

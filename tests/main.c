@@ -34,6 +34,9 @@
     X(sampling) \
     X(scatter) \
     X(render) \
+    X(transport) \
+    X(outputs) \
+    X(flight) \
     X(golden) \
     X(api) \
     X(load) \

@@ -7,6 +7,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -91,12 +92,28 @@ static void fail_every_request(const char *text, const char *what) {
     }
 }
 
+/* Glass, so that arrays of rays grow while the picture is drawn, and all that a world prepares. */
+static const char *rays_scene(void) {
+    static char text[2000];
+    snprintf(text, sizeof text,
+        "<scene dialect='glint'><camera><viewPoint>0 0 4</viewPoint></camera><image>40 40</image>"
+        "<environment type='Cubemap'><filename>%s/tests/golden/sky.pfm</filename></environment>"
+        "<light type='RectangleLight'><position>0 1.5 0</position><normalDir>0 -1 0</normalDir>"
+        "<upDir>0 0 1</upDir></light><shader name='g' type='Glass'><refractiveIndex>1.5"
+        "</refractiveIndex></shader><surface type='Sphere'><shader ref='g'/></surface>"
+        "<surface type='Group'><scale>.5 .5 .5</scale><surface type='Mesh'><data>%s/tests/golden/"
+        "gem.obj</data><shader ref='g'/></surface></surface></scene>",
+        test_source_dir(), test_source_dir());
+    return text;
+}
+
 static void failing_allocator(void) {
     fail_every_request(small_scene, "small scene");
     char *text = large_text(3000);
     CHECK(text != NULL);
     if (text != NULL) fail_every_request(text, "large scene");
     free(text);
+    fail_every_request(rays_scene(), "scene of rays that go on");
 }
 
 static void *build_by_calls(void *user) {
@@ -160,6 +177,17 @@ static void memory_limits(void) {
     CHECK_INT(status, GLINT_OK);
     CHECK(refused > 20);
     free(text);
+    status = GLINT_ERROR_MEMORY;
+    for (size_t limit = 10000; status == GLINT_ERROR_MEMORY && limit < 1u << 30;
+         limit += limit / 16) {
+        GlintSceneDesc desc = glint_scene_desc_default();
+        desc.thread_count = 1;
+        desc.memory_limit = limit;
+        uint64_t peak = 0;
+        status = live(rays_scene(), &desc, &peak);
+        CHECK(peak <= limit);
+    }
+    CHECK_INT(status, GLINT_OK);
 }
 
 /* ---------------------------------------------------------------- threads */

@@ -431,7 +431,8 @@ typedef struct GlintRenderDesc {
      * rounding, these parts sum up to the whole. */
     int light;
     /* Where to put what the camera rays met, a value a pixel in the order of the pixels; each may
-     * be null (default). Means over the samples of a pixel, but for the surface. */
+     * be null (default). Means over the samples of a pixel, but for the surface. A light is met as
+     * if nothing were there. */
     float *depth;      /* distance from the origin of the ray; 0 where it meets nothing */
     float *normal;     /* 3 a pixel: the normal that is shaded with; 0 0 0 where nothing is met */
     float *albedo;     /* 3 a pixel: the diffuse colour, textures included */
@@ -459,7 +460,8 @@ typedef struct GlintHit {
     double t;
     double point[3];
     double normal[3];       /* unit, outward, never turned toward the ray */
-    GlintSurfaceId surface; /* in the order in which surfaces were added, groups not counted */
+    GlintSurfaceId surface; /* in the order in which surfaces were added, groups not counted; zero:
+                               a rectangle light of a dialect where these can be seen */
     GlintShaderId shader;
 } GlintHit;
 
@@ -475,6 +477,7 @@ typedef struct GlintStats {
     double read_seconds, build_seconds, trace_seconds;
     uint64_t read_bytes;
     uint64_t camera_rays, shadow_rays;
+    uint64_t other_rays; /* mirrored, refracted, scattered */
     uint64_t primitive_count, node_count, leaf_count, tree_bytes;
     double sah_cost;      /* expected node visits plus primitive block tests of a random ray */
     uint64_t memory_peak; /* bytes asked of the allocator at the same time */

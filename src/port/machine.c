@@ -44,6 +44,11 @@ double gi_machine_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+void gi_machine_sleep(double seconds) {
+    const struct timespec time = {0, (long)(seconds * 1e9)};
+    nanosleep(&time, NULL);
+}
+
 bool gi_machine_has(GiMachineFeature feature) {
 #if (defined(__x86_64__) || defined(__i386__)) && defined(__GNUC__)
     switch (feature) {

@@ -4,8 +4,8 @@
  * range, so that no more rays are ever stored than a chunk's for every level.
  *
  * The rays of a pixel stand side by side. A chunk holds all of a pixel's rays of its level, or, if
- * these are more than a chunk holds, a number of them that depends on nothing else. So a pixel's
- * light is summed up in the same order whatever pixels it shares the tile with. */
+ * these are more than a chunk holds, that many, and in the last one the rest. So a pixel's light is
+ * summed up in the same order whatever pixels it shares the tile with. */
 #include "render/stage.h"
 
 #include <string.h>
@@ -26,10 +26,7 @@ static size_t chunk_begin(const GiFlight *flights, const GiFlightRange *range) {
     if (flights[begin].pixel != pixel) return begin;
     size_t next = begin;
     while (next < range->end && flights[next].pixel == pixel) next++;
-    if (next < range->end) return next;
-    size_t first = begin; /* all is one pixel's */
-    while (first > range->first && flights[first - 1].pixel == pixel) first--;
-    return range->end - ((range->end - first - 1) % GI_FLIGHT_CHUNK + 1);
+    return next < range->end ? next : begin; /* begin: all is one pixel's */
 }
 
 /* Moves the last chunk out of the array. Returns its size. */

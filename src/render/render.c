@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "render/render.h"
 
+#include "port/machine.h"
 #include "render/tile.h"
 
 #include <string.h>
@@ -32,6 +33,16 @@ static void report(Render *render) {
     }
 }
 
+/* No tile is left to begin, but the caller can still be asked. */
+static void wait_for_others(Render *render) {
+    int count = render->columns * render->rows;
+    if (render->monitor == NULL) return;
+    while (atomic_load(&render->done) < count && !atomic_load(&render->stop)) {
+        gi_machine_sleep(0.001);
+        report(render);
+    }
+}
+
 static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
     (void)begin;
     (void)end;
@@ -42,11 +53,14 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
         int tile = atomic_fetch_add_explicit(&render->next, 1, memory_order_relaxed);
         if (tile >= render->columns * render->rows || atomic_load(&render->stop)) break;
         int x = tile % render->columns * render->side, y = tile / render->columns * render->side;
-        gi_tile_draw(render->world, render->area, x, y, render->side, render->target,
-            render->scratch[worker], &counts, &control);
+        if (!gi_tile_draw(render->world, render->area, x, y, render->side, render->target,
+                render->scratch[worker], &counts, &control)) {
+            break;
+        }
         atomic_fetch_add_explicit(&render->done, 1, memory_order_relaxed);
         if (worker == 0) report(render);
     }
+    if (worker == 0) wait_for_others(render);
     /* A worker may be called more than once. */
     render->counts[worker].camera_rays += counts.camera_rays;
     render->counts[worker].shadow_rays += counts.shadow_rays;

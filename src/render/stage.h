@@ -112,8 +112,8 @@ typedef enum GiPurpose {
     GI_PURPOSE_LIGHT /* the first of the lights; the others follow */
 } GiPurpose;
 
-static inline uint32_t gi_stage_dimension(uint32_t level, uint32_t purpose) {
-    return level << 16 | purpose;
+static inline uint64_t gi_stage_dimension(uint32_t level, uint32_t purpose) {
+    return (uint64_t)(purpose >> 16) << 32 | level << 16 | (purpose & 0xffff);
 }
 
 /* The weight of one of two ways to draw the same light, by their densities (Veach and Guibas 1995,
@@ -122,8 +122,9 @@ static inline double gi_stage_share(
     const GiStage *stage, GiTechnique own, double density, double other) {
     GiTechnique technique = stage->target->technique;
     if (technique != GI_TECHNIQUE_BOTH) return technique == own ? 1 : 0;
-    double a = density * density, b = other * other;
-    return a > 0 ? a / (a + b) : 0;
+    /* Of a light without extent, as good as, the squares would be infinite. */
+    double ratio = other / density;
+    return 1 / (1 + ratio * ratio);
 }
 
 /* Whether light of that index (-1: of no light) is drawn. */
@@ -132,9 +133,11 @@ static inline bool gi_stage_draws(const GiStage *stage, int light) {
     return wanted == 0 || wanted == (light < 0 ? -1 : light + 1);
 }
 
-/* What light given as radiance counts beside that of point lights, given as intensity. */
+/* What light given as radiance counts beside that of point lights, given as intensity. On paths
+ * surfaces send light to each other, and must not send back more than they get in any year. */
 static inline double gi_stage_radiance(const GiShading *at) {
-    return at->rules->radiance_over_pi ? gi_bsdf_radiometric(at) : 1;
+    bool path = at->scene->integrator == GLINT_INTEGRATOR_PATH;
+    return path || at->rules->radiance_over_pi ? gi_bsdf_radiometric(at) : 1;
 }
 
 /* ---- surface.c */

@@ -112,8 +112,8 @@ static GiVec background(const GiStage *stage, const GiFlight *flight, GiVec dire
 
 bool gi_surface_probes(const GiWorld *world, const GiShader *shader) {
     const GiRules *rules = world->rules;
-    if (!rules->area_light_visible && !rules->environment_lights) return false;
     if (world->scene->integrator == GLINT_INTEGRATOR_PATH) return true;
+    if (!rules->area_light_visible && !rules->environment_lights) return false;
     return world->has_large_lights && shader->type != GLINT_SHADER_LAMBERTIAN &&
            shader->type != GLINT_SHADER_RGB_NORMALS;
 }
@@ -168,7 +168,10 @@ static void add_probe(
     if (draw_direction(stage, met, scatter, &flight)) gi_flight_add(stage, &flight);
 }
 
-static double brightness(GiVec color) { return (color.x + color.y + color.z) / 3; }
+/* Colours may be negative. */
+static double brightness(GiVec color) {
+    return (fabs(color.x) + fabs(color.y) + fabs(color.z)) / 3;
+}
 
 /* Goes on with a part p of all paths only, and lets each count 1 / p (Russian roulette). From the
  * level on at which a path has had its chance. */
@@ -178,7 +181,7 @@ static bool survives(const GiStage *stage, GiFlight *flight) {
     double p = gi_largest(flight->factor);
     if (p >= 1) return true;
     GiSampler sampler = gi_stage_sampler(stage, flight->pixel);
-    uint32_t dimension = gi_stage_dimension(flight->level, GI_PURPOSE_ROULETTE);
+    uint64_t dimension = gi_stage_dimension(flight->level, GI_PURPOSE_ROULETTE);
     if (!(gi_sample_1d(&sampler, dimension) < p)) return false;
     flight->factor = gi_scale(flight->factor, 1 / p);
     return true;

@@ -200,7 +200,7 @@ static void add_sample(const Extent *extent, GiTileScratch *scratch) {
     }
 }
 
-void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
+bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
     const GiRenderTarget *target, GiTileScratch *scratch, GiRenderCounts *counts,
     const GiTileControl *control) {
     Extent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
@@ -215,7 +215,7 @@ void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
     for (int sample = 0; sample < n * n; sample++) {
         stage.sample = (uint32_t)sample;
         draw_sample(&stage, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n);
-        if (stopped(control)) return;
+        if (stopped(control)) return false;
         add_sample(&extent, scratch);
     }
     double exposure = world->scene->exposure > 0 ? world->scene->exposure : 1;
@@ -225,4 +225,5 @@ void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
         if (scratch->seen == NULL) continue;
         store_seen(scratch->seen + row * STRIDE, extent.width, n * n, at, target);
     }
+    return true;
 }

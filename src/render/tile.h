@@ -24,7 +24,7 @@ typedef struct GiTileControl {
 } GiTileControl;
 
 /* Draws the part of the tile with corner (x, y) and the given side that lies in the area. control
- * is asked every few hundred rays; when it says stop the tile stays unfinished. */
-void gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
+ * is asked every few hundred rays; when it says stop the tile stays unfinished: false. */
+bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
     const GiRenderTarget *target, GiTileScratch *scratch, GiRenderCounts *counts,
     const GiTileControl *control);

@@ -66,7 +66,7 @@ GiSampler gi_sampler_independent(uint32_t x, uint32_t y, uint32_t sample) {
     return sampler;
 }
 
-void gi_sample_2d(const GiSampler *sampler, uint32_t dimension, double u[2]) {
+void gi_sample_2d(const GiSampler *sampler, uint64_t dimension, double u[2]) {
     uint64_t seed = hash(sampler->seed, dimension);
     if (sampler->independent) {
         u[0] = unit((uint32_t)seed);
@@ -84,7 +84,7 @@ void gi_sample_2d(const GiSampler *sampler, uint32_t dimension, double u[2]) {
     u[1] = unit((uint32_t)both);
 }
 
-double gi_sample_1d(const GiSampler *sampler, uint32_t dimension) {
+double gi_sample_1d(const GiSampler *sampler, uint64_t dimension) {
     double u[2];
     gi_sample_2d(sampler, dimension, u);
     return u[0];

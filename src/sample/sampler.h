@@ -24,5 +24,5 @@ GiSampler gi_sampler_independent(uint32_t x, uint32_t y, uint32_t sample);
 
 /* Uniform in [0, 1), whole multiples of 2^-32. The single number of a dimension is the first of its
  * pair. */
-double gi_sample_1d(const GiSampler *sampler, uint32_t dimension);
-void gi_sample_2d(const GiSampler *sampler, uint32_t dimension, double u[2]);
+double gi_sample_1d(const GiSampler *sampler, uint64_t dimension);
+void gi_sample_2d(const GiSampler *sampler, uint64_t dimension, double u[2]);
