@@ -19,6 +19,7 @@
     X(math) \
     X(elementary) \
     X(sample) \
+    X(samples) \
     X(mesh) \
     X(reader) \
     X(malformed) \
