@@ -10,6 +10,8 @@
         "write to FILE (.png, .pfm or .exr), or into a folder")                                    \
     X(SIZE, 0, "size", "WxH", REQUIRED, PICTURE, "draw W x H pixels, whatever the scene says")     \
     X(CROP, 0, "crop", "X,Y,W,H", REQUIRED, PICTURE, "draw only W x H pixels from X,Y (top left)") \
+    X(SAMPLES, 0, "samples", "N", REQUIRED, PICTURE,                                               \
+        "draw N samples a pixel, whatever the scene says")                                         \
     X(LAYERS, 0, "layers", "A,B", REQUIRED, PICTURE,                                               \
         "add depth, normal, albedo, surface, lights, or all")                                      \
     X(DIALECT, 0, "dialect", "NAME", REQUIRED, PICTURE, "follow the rules of a year (see below)")  \

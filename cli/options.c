@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SIDE_LIMIT = 1 << 28, PIXEL_LIMIT = 1 << 28, THREAD_LIMIT = 1024 };
+enum { SIDE_LIMIT = 1 << 28, PIXEL_LIMIT = 1 << 28, THREAD_LIMIT = 1024, SAMPLES_LIMIT = 65536 };
 
 /* A whole number from low to high at *text, which moves behind it. */
 static bool parse_number(const char **text, int low, int high, int *value) {
@@ -119,6 +119,13 @@ static const char *help_name_at(int index) {
     return names[index];
 }
 
+static CliStatus set_samples(CliOptions *options, const char *value) {
+    const char *text = value;
+    if (parse_number(&text, 1, SAMPLES_LIMIT, &options->samples) && *text == '\0') return CLI_OK;
+    return cli_message_usage(
+        "--samples takes a number from 1 to %d, not '%s'", (int)SAMPLES_LIMIT, value);
+}
+
 static const char *layer_name_at(int index) {
     /* In the order of the bits of CliLayerKind. */
     static const char *const names[] = {
@@ -169,6 +176,7 @@ static CliStatus apply(CliOptions *options, CliOptionId id, const char *value) {
         return value[0] != '\0' ? CLI_OK : cli_message_usage("--output takes the name of a file");
     case CLI_OPTION_SIZE: return set_size(options, value);
     case CLI_OPTION_CROP: return set_crop(options, value);
+    case CLI_OPTION_SAMPLES: return set_samples(options, value);
     case CLI_OPTION_LAYERS: return set_layers(options, value);
     case CLI_OPTION_DIALECT: return set_dialect(options, value);
     case CLI_OPTION_THREADS: return set_threads(options, value);

@@ -35,6 +35,7 @@ typedef struct CliOptions {
     const char *isa;                             /* null: the fastest */
     int width, height;                           /* 0: the scene's */
     int crop_x, crop_y, crop_width, crop_height; /* crop_width 0: the whole picture */
+    int samples;                                 /* 0: the scene's */
     unsigned layers;                             /* a set of CliLayerKind */
     CliStatsFormat stats;
     bool quiet;

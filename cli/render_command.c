@@ -175,6 +175,7 @@ static CliStatus choose_area(Drawing *drawing) {
     drawing->area = glint_render_desc_default();
     drawing->area.width = options->width;
     drawing->area.height = options->height;
+    drawing->area.samples = options->samples;
     drawing->area.crop_x = stats->crop_x;
     drawing->area.crop_y = stats->crop_y;
     drawing->area.crop_width = crop ? stats->crop_width : 0;
@@ -265,6 +266,7 @@ static CliStatus announce(Drawing *drawing) {
     stats->total_seconds = cli_clock() - drawing->progress.began;
     stats->resident_peak = cli_stats_resident_peak();
     glint_scene_info(drawing->scene, &stats->scene);
+    if (drawing->options->samples > 0) stats->scene.samples = drawing->options->samples;
     glint_scene_stats(drawing->scene, &stats->library);
     CliStatsFormat format = drawing->options->stats;
     if (format == CLI_STATS_JSON) {

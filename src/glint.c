@@ -244,6 +244,9 @@ GlintStatus glint_render(
         area.crop_height > area.height - area.y) {
         return ARGUMENT(error, "the crop reaches outside of the picture");
     }
+    if (desc->samples < 0 || desc->samples > GI_SAMPLES_LIMIT) {
+        return ARGUMENT(error, "samples must be from 1 to %d", GI_SAMPLES_LIMIT);
+    }
     if ((unsigned)desc->sampling > GLINT_SAMPLING_RANDOM) {
         return ARGUMENT(error, "no such sampling");
     }
@@ -252,8 +255,16 @@ GlintStatus glint_render(
     }
     double start = gi_machine_seconds();
     GiRenderCounts counts = {0};
-    const GiRenderTarget target = {pixels, desc->depth, desc->normal, desc->albedo, desc->surface,
-        desc->light, desc->sampling, GI_TECHNIQUE_BOTH};
+    const GiRenderTarget target = {
+        .samples = desc->samples != 0 ? desc->samples : scene->model.samples,
+        .color = pixels,
+        .depth = desc->depth,
+        .normal = desc->normal,
+        .albedo = desc->albedo,
+        .surface = desc->surface,
+        .light = desc->light,
+        .sampling = desc->sampling,
+    };
     GlintStatus status =
         gi_render(&scene->world, scene->pool, &area, desc->monitor, &target, &counts);
     scene->stats.trace_seconds = gi_machine_seconds() - start;

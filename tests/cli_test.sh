@@ -179,6 +179,10 @@ for value in 0x5 5 5x 5x5x5 -5x5 99999x99999 99999999999999999999x1; do
 done
 for value in 1,2,3 1,2,3,0 -1,2,3,4 1,2,3,4,5; do run 2 --crop "$value" a.xml; done
 
+run 0 --samples 4 a.xml
+run 2 --samples 0 a.xml
+says "from 1 to 65536"
+
 # Layers are files beside the picture.
 run 0 --layers depth,lights -o layers.png a.xml
 for file in layers.png layers.depth.pfm layers.light.none.png; do

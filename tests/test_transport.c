@@ -42,8 +42,10 @@ static Estimate estimate_by(GlintScene *scene, GlintSampling sampling, GiTechniq
     if (scene == NULL) return estimate;
     Picture picture = {SIDE, SIDE, malloc(PIXELS * 3 * sizeof *picture.pixels)};
     const GiRenderArea area = {SIDE, SIDE, 0, 0, SIDE, SIDE};
-    const GiRenderTarget target = {
-        .color = picture.pixels, .sampling = sampling, .technique = technique};
+    const GiRenderTarget target = {.samples = scene->model.samples,
+        .color = picture.pixels,
+        .sampling = sampling,
+        .technique = technique};
     GiRenderCounts counts;
     CHECK_INT(gi_render(&scene->world, scene->pool, &area, NULL, &target, &counts), GLINT_OK);
     estimate = estimate_of(&picture);

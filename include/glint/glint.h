@@ -426,6 +426,7 @@ typedef struct GlintRenderDesc {
     int width, height;           /* 0 (default): the scene's */
     int crop_x, crop_y;          /* top left corner of the part to draw; 0 */
     int crop_width, crop_height; /* 0 (default): all that is right of and below the corner */
+    int samples;                 /* per pixel, as in GlintImageDesc; 0 (default): the scene's */
     /* Light of one kind only: 0 (default): all; k > 0: of the k-th light, in the order of the
      * scene; -1: what comes from none of them (background, environment, RGBNormals). Up to
      * rounding, these parts sum up to the whole. */

@@ -24,6 +24,7 @@ typedef enum GiTechnique {
 /* What to draw, and where to: crop_width * crop_height values or triples, top row first. All but
  * color may be null. */
 typedef struct GiRenderTarget {
+    int samples; /* per pixel, at least 1 */
     float *color, *depth, *normal, *albedo;
     uint32_t *surface;
     int light; /* as in GlintRenderDesc */

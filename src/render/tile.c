@@ -178,8 +178,8 @@ static void store_seen(
 }
 
 /* The samples of a pixel are a grid of so many rows and columns. */
-static int grid_of(const GiScene *scene) {
-    int n = (int)floor(sqrt((double)scene->samples) + 0.5);
+static int grid_of(int samples) {
+    int n = (int)floor(sqrt((double)samples) + 0.5);
     return n > 1 ? n : 1;
 }
 
@@ -210,7 +210,7 @@ bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
         world, control, scratch, counts, target, (uint32_t)extent.x, (uint32_t)extent.y, 0};
     scratch->bundle.stop = ask;
     scratch->bundle.stop_context = control;
-    int n = grid_of(world->scene);
+    int n = grid_of(target->samples);
     clear(&extent, scratch);
     for (int sample = 0; sample < n * n; sample++) {
         stage.sample = (uint32_t)sample;
