@@ -51,6 +51,7 @@ static void find_programs(const Options *options, const char *folder, Field *fie
     if (options->against != NULL) {
         message_format(paths[PROGRAM_OTHER_GLINT], PATH_SIZE, "%s", options->against);
         require(paths[PROGRAM_OTHER_GLINT]);
+        return; /* the question is another one, and peers would make the answer late */
     }
     if (!process_find("tachyon", paths[PROGRAM_TACHYON], PATH_SIZE)) {
         paths[PROGRAM_TACHYON][0] = '\0';

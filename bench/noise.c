@@ -83,7 +83,7 @@ static void save_pictures(const char *cache, const char *folder, Picture *pictur
     for (int sampling = 0; sampling < 2; sampling++) {
         char path[PATH_SIZE];
         GlintError error = {0};
-        draw(cache, SAMPLE_ROOM, SHOWN, SHOWN_EDGE, (GlintSampling)sampling, picture);
+        draw(cache, SAMPLE_SHADOW, SHOWN, SHOWN_EDGE, (GlintSampling)sampling, picture);
         GlintImage image = {SHOWN_EDGE, SHOWN_EDGE, picture->pixels};
         GlintSaveDesc desc = glint_save_desc_default();
         message_format(path, sizeof path, "%s/noise-%s.png", folder, names[sampling]);

@@ -17,7 +17,7 @@ static const char usage[] =
     "                  mesh), forest (copies), glass, lights; with samples: shadow, sky, room\n"
     "  --reps N        runs that count, of each program with each scene (default: 5)\n"
     "  --glint PATH    measure this glint, not the one beside glint-bench\n"
-    "  --against PATH  a second glint to compare with\n"
+    "  --against PATH  a second glint to compare with, in the place of Tachyon and POV-Ray\n"
     "  --csv FILE      write the numbers to FILE\n"
     "  --results DIR   write them to a file in DIR that is named for this machine\n"
     "  --page FILE     make the page of all that DIR holds\n"

@@ -55,9 +55,13 @@ static void print_entry(const Contest *contest, Program program, int threads) {
         double rays = entry->camera_rays + entry->shadow_rays;
         printf(" %8.0f %8.2f %8.2f", rate(entry->read_size, entry, MEASURE_READ),
             rate(entry->primitives, entry, MEASURE_BUILD), rate(rays, entry, MEASURE_TRACE));
-        /* The other one is not asked. */
-        printf(" %8.2f %8.2f %8.1f", rate(entry->camera_rays, entry, MEASURE_CAMERA),
-            rate(entry->shadow_rays, entry, MEASURE_SHADOW), 1e3 * spreads[MEASURE_WRITE].median);
+        if (program == PROGRAM_GLINT) {
+            printf(" %8.2f %8.2f", rate(entry->camera_rays, entry, MEASURE_CAMERA),
+                rate(entry->shadow_rays, entry, MEASURE_SHADOW));
+        } else {
+            printf(" %8s %8s", "-", "-");
+        }
+        printf(" %8.1f", 1e3 * spreads[MEASURE_WRITE].median);
     }
     putchar('\n');
 }

@@ -30,7 +30,7 @@ typedef enum SampleKind {
     SAMPLE_FOREST,  /* a tree of 200 solids, drawn count times */
     SAMPLE_GLASS,   /* the spheres, half of them of glass or glazed */
     SAMPLE_LIGHTS,  /* 10,000 solids under count point lights */
-    SAMPLE_SHADOW,  /* four solids under a large lamp; count samples a pixel, as from here on */
+    SAMPLE_SHADOW,  /* the tiny scene under a large lamp; count samples a pixel, as from here on */
     SAMPLE_SKY,     /* the same under a sky with a sun */
     SAMPLE_ROOM,    /* a closed room, path traced */
     SAMPLE_KIND_COUNT

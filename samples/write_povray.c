@@ -7,7 +7,8 @@
  * exponent e.
  *
  * Held against Glint's picture, 1024 x 1024, 8 bits linear: 0.22 of a step apart in the mean, which
- * is the rounding; 10,000 spheres: no pixel by more than 1 step; 10,000 solids: one pixel. */
+ * is the rounding; 10,000 spheres: no pixel by more than 1 step; 10,000 solids: one pixel;
+ * a torus of 10,000 triangles: 3,259 pixels by more than 2 steps. */
 #include "samples/write.h"
 
 #include <inttypes.h>
