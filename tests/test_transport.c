@@ -369,6 +369,22 @@ static void techniques(void) {
     }
 }
 
+/* A lamp that lies in the ceiling is there for both ways to find it. */
+static void lamp_in_the_ceiling(void) {
+    static const char *const ceilings[] = {
+        "<surface type='Plane'><point>0 0 4</point><normal>0 0 -1</normal></surface>",
+        "<surface type='Box'><minPt>-9 -9 4</minPt><maxPt>9 9 5</maxPt></surface>",
+        "<surface type='Disc'><point>0 0 4</point><radius>9</radius></surface>"};
+    for (int i = 0; i < 3; i++) {
+        check_techniques(ceilings[i],
+            point_scene("glint", 64,
+                PATH("1") "<surface type='Plane'/>%s<light type='RectangleLight'>"
+                          "<position>.5 0 4</position><upDir>0 1 0</upDir><width>4</width>"
+                          "<height>3</height></light>",
+                ceilings[i]));
+    }
+}
+
 /* Paths that meet one surface see what direct light is. */
 static void direct_light(void) {
     for (int surface = 0; surface < SURFACES; surface++) {
@@ -448,5 +464,5 @@ static void sampling(void) {
 }
 
 const GiTest tests_transport[] = {TEST(series), TEST(furnace), TEST(glass_is_invisible),
-    TEST(rectangle_over_plane), TEST(tiny_rectangle), TEST(techniques), TEST(direct_light),
-    TEST(constant_sky), TEST(choices), TEST(sampling), TEST_END};
+    TEST(rectangle_over_plane), TEST(tiny_rectangle), TEST(techniques), TEST(lamp_in_the_ceiling),
+    TEST(direct_light), TEST(constant_sky), TEST(choices), TEST(sampling), TEST_END};

@@ -73,7 +73,7 @@ static GlintStatus prepare_lights(GiWorld *world, const GiScene *scene, GlintErr
                : gi_error_memory(error);
 }
 
-/* Lights that can be seen become rectangles of the scene, behind all surfaces in document order. */
+/* Lights that can be seen become rectangles of the scene, numbered after all surfaces. */
 static bool add_light_rectangles(GiWorld *world, GiScene *scene) {
     GiShapeInfos *infos = &scene->info[GI_SHAPE_RECTANGLE];
     infos->count = 0;

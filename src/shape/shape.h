@@ -169,9 +169,12 @@ static inline const GiShapeInfo *gi_shape_info(
     return &shapes->mesh_info[gi_shape_mesh(shapes, i)];
 }
 
-/* Whether a goes before b where a ray meets both at the same t. */
+/* Whether a goes before b where a ray meets both at the same t. A light before all surfaces: one
+ * that lies in a ceiling is seen, as often as it is drawn. */
 static inline bool gi_shape_before(
     const GiShapes *shapes, GiShapeRef a, uint32_t instance_a, GiShapeRef b, uint32_t instance_b) {
+    bool light_a = gi_shape_kind(a) == GI_SHAPE_RECTANGLE;
+    if (light_a != (gi_shape_kind(b) == GI_SHAPE_RECTANGLE)) return light_a;
     uint32_t order_a = gi_shape_info(shapes, a, instance_a)->order;
     uint32_t order_b = gi_shape_info(shapes, b, instance_b)->order;
     if (order_a != order_b) return order_a < order_b;
