@@ -436,7 +436,8 @@ typedef struct GlintRenderDesc {
      * if nothing were there. */
     float *depth;      /* distance from the origin of the ray; 0 where it meets nothing */
     float *normal;     /* 3 a pixel: the normal that is shaded with; 0 0 0 where nothing is met */
-    float *albedo;     /* 3 a pixel: the diffuse colour, textures included */
+    float *albedo;     /* 3 a pixel: the diffuse colour, textures included; of glazing what is
+                        * under it, of glass 0 */
     uint32_t *surface; /* GlintSurfaceId of the first sample's surface; 0: none */
     GlintSampling sampling;      /* SOBOL */
     const GlintMonitor *monitor; /* null */

@@ -287,9 +287,12 @@ static void note_seen(
     const GiStage *stage, const Met *met, const GiSurfacePoint *at, const GiShader *shader) {
     const GiWorld *world = stage->world;
     GiSeen *seen = &stage->scratch->seen[met->pixel];
-    GiVec albedo = shader->texture == GI_NONE
-                       ? shader->diffuse
-                       : texture_color(world, met, at->point, shader->texture);
+    for (int i = 0; i < GI_SUBSTRATE_LIMIT && shader->substrate != GI_NONE; i++) {
+        shader = &world->scene->shaders.data[shader->substrate];
+    }
+    GiVec albedo = shader->diffuse;
+    if (shader->texture != GI_NONE) albedo = texture_color(world, met, at->point, shader->texture);
+    if (shader->type == GLINT_SHADER_GLASS) albedo = gi_vec(0, 0, 0);
     seen->normal = gi_add(seen->normal, at->normal);
     seen->albedo = gi_add(seen->albedo, albedo);
     seen->depth += met->t;
