@@ -2,6 +2,7 @@
 #include "accel/tree.h"
 
 #include "accel/build.h"
+#include "base/prefetch.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -255,7 +256,7 @@ static void fetch_leaf(const Layout *layout, const GiBuildNode *node) {
     for (uint32_t i = 0; i < node->count; i++) {
         GiShapeRef ref = {gi_build_id(&layout->items[node->first + i])};
         if (gi_shape_kind(ref) != GI_SHAPE_SPHERE) continue;
-        __builtin_prefetch(&layout->shapes->spheres[gi_shape_index(ref)]);
+        gi_prefetch(&layout->shapes->spheres[gi_shape_index(ref)]);
     }
 }
 

@@ -12,6 +12,7 @@ enum { GI_REGROUP_LIMIT = 16384 };
 typedef struct GiRegroup {
     uint16_t order[GI_REGROUP_LIMIT]; /* a permutation */
     /* private */
-    float a[GI_REGROUP_LIMIT], b[GI_REGROUP_LIMIT];
+    float a[GI_REGROUP_LIMIT + 16], b[GI_REGROUP_LIMIT + 16];
+    uint16_t bucket[GI_REGROUP_LIMIT];
     uint16_t key[GI_REGROUP_LIMIT], curve[128 * 128];
 } GiRegroup;

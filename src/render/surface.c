@@ -23,16 +23,20 @@ static void begin_weights(GiTileScratch *scratch) {
     for (int i = 0; i < scratch->point_count; i++) scratch->factors[i] = white();
 }
 
-/* Writes the point after the last one. */
-static inline void add_point(
-    GiTileScratch *scratch, const GiSurfacePoint *at, GiVec direction, const GiSpot *spot) {
+/* Writes the point after the last one, but for its spot. */
+static inline void store_point(GiTileScratch *scratch, const GiSurfacePoint *at, GiVec direction) {
     int i = scratch->point_count++;
     GiPoints *points = &scratch->points;
     points->px[i] = at->point.x, points->py[i] = at->point.y, points->pz[i] = at->point.z;
     points->nx[i] = at->normal.x, points->ny[i] = at->normal.y, points->nz[i] = at->normal.z;
     points->vx[i] = -direction.x, points->vy[i] = -direction.y, points->vz[i] = -direction.z;
     points->error[i] = at->error;
-    scratch->spots[i] = *spot;
+}
+
+static void add_point(
+    GiTileScratch *scratch, const GiSurfacePoint *at, GiVec direction, const GiSpot *spot) {
+    scratch->spots[scratch->point_count] = *spot;
+    store_point(scratch, at, direction);
 }
 
 GiShading gi_surface_shading(const GiStage *stage, int i) {
@@ -302,9 +306,14 @@ static void note_seen(
     }
 }
 
+static Met met_of_bundle(const GiBundle *bundle, int i, uint32_t pixel) {
+    return (Met){{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
+        {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, {1, 1, 1}, bundle->t[i], {1, 1, false},
+        {bundle->shape[i]}, bundle->instance[i], pixel};
+}
+
 /* A camera ray's: its color is set, not added to. */
-static inline void meet_surface(
-    const GiStage *stage, const Met *met, uint32_t shader_index, bool plain) {
+static void meet_surface(const GiStage *stage, const Met *met, uint32_t shader_index) {
     const GiWorld *world = stage->world;
     GiTileScratch *scratch = stage->scratch;
     const GiShader *shader = &world->scene->shaders.data[shader_index];
@@ -312,19 +321,37 @@ static inline void meet_surface(
     GiSpot spot = {met->pixel, shader_index, skip_of(world, met->shape), met->instance, 1};
     scratch->color[met->pixel] = shine_of(stage, shader, at.normal);
     if (scratch->seen != NULL) note_seen(stage, met, &at, shader);
-    if (!plain) {
-        meet_layers(stage, met, &at, shader, spot);
-        return;
-    }
-    if (scratch->weighted) scratch->factors[scratch->point_count] = white();
-    extend_segment(scratch, shader_index);
-    add_point(scratch, &at, met->direction, &spot);
+    meet_layers(stage, met, &at, shader, spot);
 }
 
-static Met met_of_bundle(const GiBundle *bundle, int i, uint32_t pixel) {
-    return (Met){{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-        {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, {1, 1, 1}, bundle->t[i], {1, 1, false},
-        {bundle->shape[i]}, bundle->instance[i], pixel};
+/* The same for a surface that is only lit. Most are, so nothing is put together in memory that is
+ * not needed. */
+static inline void meet_plain(
+    const GiStage *stage, uint32_t i, uint32_t pixel, uint32_t shader_index) {
+    const GiWorld *world = stage->world;
+    GiTileScratch *scratch = stage->scratch;
+    const GiBundle *bundle = &scratch->bundle;
+    const GiShader *shader = &world->scene->shaders.data[shader_index];
+    GiShapeRef shape = {bundle->shape[i]};
+    GiVec origin = gi_vec(bundle->ox[i], bundle->oy[i], bundle->oz[i]);
+    GiVec direction = gi_vec(bundle->dx[i], bundle->dy[i], bundle->dz[i]);
+    GiSurfacePoint at = gi_shape_point(&world->shapes, shape, bundle->instance[i], origin,
+        direction, bundle->t[i], world->rules->cone_geometric);
+    scratch->color[pixel] = shine_of(stage, shader, at.normal);
+    if (scratch->seen != NULL) {
+        Met met = met_of_bundle(bundle, (int)i, pixel);
+        note_seen(stage, &met, &at, shader);
+    }
+    int to = scratch->point_count;
+    if (scratch->weighted) scratch->factors[to] = white();
+    extend_segment(scratch, shader_index);
+    store_point(scratch, &at, direction);
+    GiSpot *spot = &scratch->spots[to];
+    spot->pixel = pixel;
+    spot->shader = shader_index;
+    spot->skip = skip_of(world, shape);
+    spot->skip_instance = bundle->instance[i];
+    spot->level = 1;
 }
 
 /* Points of one shader come to stand side by side, so that kernels can shade many at a time. The
@@ -357,8 +384,12 @@ void gi_surface_bundle(const GiStage *stage, const uint32_t *pixels) {
         uint32_t *head = &scratch->head[shaders[k]];
         bool plain = is_plain(world, &world->scene->shaders.data[shaders[k]]);
         for (uint32_t i = *head; i != GI_NONE; i = next[i]) {
-            const Met met = met_of_bundle(bundle, (int)i, pixels[i]);
-            meet_surface(stage, &met, shaders[k], plain);
+            if (plain) {
+                meet_plain(stage, i, pixels[i], shaders[k]);
+            } else {
+                const Met met = met_of_bundle(bundle, (int)i, pixels[i]);
+                meet_surface(stage, &met, shaders[k]);
+            }
         }
         *head = GI_NONE;
     }
