@@ -210,7 +210,6 @@ static void add_path(
     if (!(chance > 0)) return;
     GiFlight flight = flight_from(met, at);
     if (chosen < scatter->count) {
-        if (last) return;
         const GiBranch *branch = &scatter->branch[chosen];
         flight.direction = branch->direction;
         flight.factor = gi_multiply(met->factor, branch->factor);
@@ -220,8 +219,8 @@ static void add_path(
         if (!draw_direction(stage, met, scatter, &flight)) return;
         flight.weight = met->arrival.weight;
         flight.inside = met->arrival.inside;
-        flight.probe = last;
     }
+    flight.probe = last;
     flight.factor = gi_scale(flight.factor, 1 / chance);
     if (survives(stage, &flight)) gi_flight_add(stage, &flight);
 }
