@@ -222,6 +222,43 @@ static void compare_single(
     }
 }
 
+/* The same rays, and some that leave out what they would meet, many at a time. */
+static void compare_many(const Fixture *fixture, const GiKernel *kernel, Random *random, GiVec at,
+    double size, int count, const char *what) {
+    static GiTraceRay rays[1500];
+    static GiTraceHit hits[1500];
+    static bool blocked[1500];
+    CHECK(count <= 1500);
+    for (int i = 0; i < count; i++) {
+        GiTraceHit hit;
+        rays[i] = random_ray(fixture, random, at, size);
+        if (random_below(random, 3) == 0 && brute_force(fixture, &rays[i], &hit)) {
+            switch (random_below(random, 3)) {
+            case 0: rays[i].skip = hit.shape.bits, rays[i].skip_instance = hit.instance; break;
+            case 1: rays[i].t_max = hit.t; break; /* the interval is open */
+            default: rays[i].t_min = hit.t;
+            }
+        }
+    }
+    kernel->many_closest(&fixture->world.trace, rays, count, hits);
+    kernel->many_any(&fixture->world.trace, rays, count, blocked);
+    for (int i = 0; i < count; i++) {
+        GiTraceHit expected;
+        bool meets = brute_force(fixture, &rays[i], &expected);
+        bool same = hits[i].shape.bits == expected.shape.bits && blocked[i] == meets;
+        if (meets) {
+            same &= memcmp(&hits[i].t, &expected.t, sizeof expected.t) == 0 &&
+                    hits[i].instance == expected.instance;
+        }
+        if (!same && wrong++ < 3) {
+            test_fail(__FILE__, __LINE__,
+                "%s, %s, many: ray %d of %d: shape %x at %.17g, not %x at %.17g; blocked: %d", what,
+                kernel->name, i, count, hits[i].shape.bits, hits[i].t, expected.shape.bits,
+                expected.t, blocked[i]);
+        }
+    }
+}
+
 /* Rays from one point, or toward it when `any`, through a bundle and one by one. */
 static void compare_bundle(const Fixture *fixture, const GiKernel *kernel, Random *random, GiVec at,
     double size, bool any, const char *what) {
@@ -284,6 +321,10 @@ static void compare_all(const Fixture *fixture, GiVec at, double size, int rays,
         for (int i = 0; i < rays; i++) {
             GiTraceRay ray = random_ray(fixture, &random, at, size);
             compare_single(fixture, kernel, &ray, what);
+        }
+        compare_many(fixture, kernel, &random, at, size, rays, what);
+        for (int i = 1; i < 80; i += 13) {
+            compare_many(fixture, kernel, &random, at, size, i, what);
         }
         for (int i = 0; i < rays / 64; i++) {
             compare_bundle(fixture, kernel, &random, at, size, false, what);
@@ -580,6 +621,12 @@ static void empty_scene(void) {
     GiTraceRay ray = {.direction = {0, 0, 1}, .t_max = INFINITY, .skip = GI_SHAPE_NONE};
     GiTraceHit hit;
     CHECK(!gi_kernel_at(0)->closest(&fixture.world.trace, &ray, &hit));
+    bool blocked = true;
+    gi_kernel_at(0)->many_closest(&fixture.world.trace, &ray, 1, &hit);
+    CHECK_INT(hit.shape.bits, GI_SHAPE_NONE);
+    gi_kernel_at(0)->many_any(&fixture.world.trace, &ray, 1, &blocked);
+    CHECK(!blocked);
+    gi_kernel_at(0)->many_any(&fixture.world.trace, &ray, 0, &blocked);
     static GiBundle bundle;
     bundle.count = 100;
     for (int i = 0; i < 100; i++) {

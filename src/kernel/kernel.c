@@ -16,6 +16,7 @@
 #undef GI_HIT
 
 #include "kernel/single.h"
+#include "kernel/many.h"
 #include "kernel/frustum.h"
 #include "kernel/bundle.h"
 #include "kernel/light.h"
@@ -27,6 +28,8 @@ const GiKernel GI_KERNEL(kernel) = {
     GI_TEXT(GI_ISA),
     GI_KERNEL(closest),
     GI_KERNEL(any),
+    GI_KERNEL(many_closest),
+    GI_KERNEL(many_any),
     GI_KERNEL(bundle_closest),
     GI_KERNEL(bundle_any),
     GI_KERNEL(light),

@@ -68,6 +68,10 @@ typedef struct GiKernel {
     const char *name;
     bool (*closest)(const GiTrace *trace, const GiTraceRay *ray, GiTraceHit *hit);
     bool (*any)(const GiTrace *trace, const GiTraceRay *ray);
+    /* Many rays that need not have anything in common; hits[i].shape is GI_SHAPE_NONE when ray i
+     * meets nothing. */
+    void (*many_closest)(const GiTrace *trace, const GiTraceRay *rays, int count, GiTraceHit *hits);
+    void (*many_any)(const GiTrace *trace, const GiTraceRay *rays, int count, bool *blocked);
     void (*bundle_closest)(const GiTrace *trace, GiBundle *bundle);
     void (*bundle_any)(const GiTrace *trace, GiBundle *bundle);
     /* Appends to *lit what the light adds to the points begin to end - 1, all of one shader, where

@@ -242,6 +242,17 @@ static inline int push_children(const GiTree *tree, const GiShapes *shapes, Stac
 static bool line_instance(
     const GiShapes *shapes, uint32_t index, const GiTraceRay *ray, bool any, GiTraceHit *best);
 
+/* Keeps what the ray meets at t if that is the best so far. */
+static inline bool line_keep(const Line *line, GiShapeRef ref, double t, GiTraceHit *best) {
+    if (t > best->t) return false;
+    if (t == best->t && best->shape.bits != GI_SHAPE_NONE &&
+        !gi_shape_before(line->shapes, ref, line->instance, best->shape, best->instance)) {
+        return false;
+    }
+    *best = (GiTraceHit){t, ref, line->instance};
+    return true;
+}
+
 /* Whether the ray meets the shape. Of hits that are not nearer than the best, none counts. */
 static inline bool line_test(const Line *line, GiShapeRef ref, bool any, GiTraceHit *best) {
     double t;
@@ -256,13 +267,7 @@ static inline bool line_test(const Line *line, GiShapeRef ref, bool any, GiTrace
     const GiTraceRay *given = line->given;
     if (ref.bits == given->skip && line->instance == given->skip_instance) return false;
     if (!gi_hit_shape(line->shapes, ref, &line->ray, given->t_min, given->t_max, &t)) return false;
-    if (t > best->t) return false;
-    if (t == best->t && best->shape.bits != GI_SHAPE_NONE &&
-        !gi_shape_before(line->shapes, ref, line->instance, best->shape, best->instance)) {
-        return false;
-    }
-    *best = (GiTraceHit){t, ref, line->instance};
-    return true;
+    return line_keep(line, ref, t, best);
 }
 
 /* Lowers *hit, or for `any` returns at the first hit. Returns whether there was one. */

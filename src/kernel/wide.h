@@ -220,6 +220,99 @@ static inline void eight_points(const float *const points[8], float xyz[3][8]) {
 }
 #endif
 
+/* ---------------------------------------------------------------- eight at a time */
+
+/* What many.h needs. Instruction sets without vectors of eight do without it. */
+#if defined(GI_IS_AVX512) || defined(GI_IS_AVX2)
+#define GI_HAS_EIGHT 1
+
+/* Moves the lanes whose bits are set to the front, in order. */
+#ifdef GI_IS_AVX512
+static inline __m256i eight_compress(__m256i a, unsigned bits) {
+    return _mm256_maskz_compress_epi32((__mmask8)bits, a);
+}
+#else
+static inline __m256i eight_compress(__m256i a, unsigned bits) {
+    uint64_t bytes = _pdep_u64(bits, 0x0101010101010101u) * 255;
+    uint64_t lanes = _pext_u64(0x0706050403020100u, bytes);
+    __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)lanes));
+    return _mm256_permutevar8x32_epi32(a, order);
+}
+#endif
+
+/* Writes those of eight whose bits are set, in order, and returns how many. There must be room
+ * for eight. */
+static inline int eight_append(uint32_t *to, const void *from, unsigned bits) {
+    __m256i all = _mm256_loadu_si256((const __m256i *)from);
+    _mm256_storeu_si256((__m256i *)(void *)to, eight_compress(all, bits));
+    return _mm_popcnt_u32(bits);
+}
+
+/* The same of base, base + 1, ... */
+static inline int eight_append_indices(uint32_t *to, uint32_t base, unsigned bits) {
+    __m256i all =
+        _mm256_add_epi32(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32((int)base));
+    _mm256_storeu_si256((__m256i *)(void *)to, eight_compress(all, bits));
+    return _mm_popcnt_u32(bits);
+}
+
+/* Eight times the same. */
+static inline void eight_fill(uint32_t *to, uint32_t value) {
+    _mm256_storeu_si256((__m256i *)(void *)to, _mm256_set1_epi32((int)value));
+}
+
+/* Bits of those of eight that equal value. */
+static inline unsigned eight_equal(uint32_t value, const void *p) {
+    __m256i all = _mm256_loadu_si256((const __m256i *)p);
+    __m256i equal = _mm256_cmpeq_epi32(all, _mm256_set1_epi32((int)value));
+    return (unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(equal));
+}
+
+/* Bits of those of eight whose highest four bits are those of value. */
+static inline unsigned eight_of_kind(uint32_t value, const void *p) {
+    __m256i all = _mm256_loadu_si256((const __m256i *)p);
+    __m256i other = _mm256_xor_si256(all, _mm256_set1_epi32((int)value));
+    __m256i equal = _mm256_cmpeq_epi32(_mm256_srli_epi32(other, 28), _mm256_setzero_si256());
+    return (unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(equal));
+}
+
+/* Writes keys and values whose bits are set, largest key first, and returns how many; there must
+ * be room for eight. Keys that differ by less than 2^-20 of themselves may trade places: what is
+ * sorted, by a network of 19 comparisons without a branch, are the keys with their lanes' numbers
+ * in the lowest bits. */
+static inline int eight_push_sorted(
+    float *keys, uint32_t *values, F key, const uint32_t value[8], unsigned bits) {
+    const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    __m256i a = _mm256_castps_si256(key);
+    /* As signed integers negative floats run the wrong way. */
+    a = _mm256_xor_si256(a, _mm256_srli_epi32(_mm256_srai_epi32(a, 31), 1));
+    a = _mm256_or_si256(_mm256_and_si256(a, _mm256_set1_epi32(-8)), lane);
+    const __m256i least = _mm256_or_si256(_mm256_set1_epi32(INT32_MIN), lane);
+#ifdef GI_IS_AVX512
+    a = _mm256_mask_mov_epi32(least, (__mmask8)bits, a);
+#else
+    const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    __m256i set = _mm256_and_si256(_mm256_set1_epi32((int)bits), bit);
+    a = _mm256_blendv_epi8(least, a, _mm256_cmpeq_epi32(set, bit));
+#endif
+    __m256i b;
+#define EXCHANGE(other, lower)                                                                     \
+    b = (other);                                                                                   \
+    a = _mm256_blend_epi32(_mm256_max_epi32(a, b), _mm256_min_epi32(a, b), lower)
+    EXCHANGE(_mm256_shuffle_epi32(a, 0xb1), 0xaa);
+    EXCHANGE(_mm256_shuffle_epi32(a, 0x1b), 0xcc);
+    EXCHANGE(_mm256_shuffle_epi32(a, 0xb1), 0xaa);
+    EXCHANGE(_mm256_permutevar8x32_epi32(a, _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0)), 0xf0);
+    EXCHANGE(_mm256_shuffle_epi32(a, 0x4e), 0xcc);
+    EXCHANGE(_mm256_shuffle_epi32(a, 0xb1), 0xaa);
+#undef EXCHANGE
+    __m256i all = _mm256_loadu_si256((const __m256i *)(const void *)value);
+    _mm256_storeu_ps(keys, _mm256_permutevar8x32_ps(key, a));
+    _mm256_storeu_si256((__m256i *)(void *)values, _mm256_permutevar8x32_epi32(all, a));
+    return _mm_popcnt_u32(bits);
+}
+#endif
+
 /* ---------------------------------------------------------------- doubles: deciding */
 
 #if defined(GI_IS_AVX512)
@@ -245,6 +338,11 @@ static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
     _mm256_mask_storeu_epi32(p, (__mmask8)bits, _mm256_set1_epi32((int)value));
 }
 #define R_ABS(a) _mm512_abs_pd(a)
+static inline R r_from_floats(const float *p) { return _mm512_cvtps_pd(_mm256_loadu_ps(p)); }
+static inline R r_gather(const double *p, const uint32_t *index, int stride) {
+    __m256i all = _mm256_loadu_si256((const __m256i *)(const void *)index);
+    return _mm512_i32gather_pd(_mm256_mullo_epi32(all, _mm256_set1_epi32(stride)), p, 8);
+}
 /* Writes the lanes whose bits are set one after the other; there must be room for all. */
 static inline void r_append(double *to, R a, unsigned bits) {
     _mm512_storeu_pd(to, _mm512_maskz_compress_pd((__mmask8)bits, a));
@@ -278,6 +376,11 @@ static inline unsigned m_bits(M m) { return (unsigned)_mm256_movemask_pd(_mm256_
 static inline R r_load(const double *p) { return _mm256_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm256_storeu_pd(p, a); }
 static inline void r_store_floats(float *p, R a) { _mm_storeu_ps(p, _mm256_cvtpd_ps(a)); }
+static inline R r_from_floats(const float *p) { return _mm256_cvtps_pd(_mm_loadu_ps(p)); }
+static inline R r_gather(const double *p, const uint32_t *index, int stride) {
+    __m128i all = _mm_loadu_si128((const __m128i *)(const void *)index);
+    return _mm256_i32gather_pd(p, _mm_mullo_epi32(all, _mm_set1_epi32(stride)), 8);
+}
 #elif defined(GI_IS_SSE2)
 enum { GI_DOUBLES = 2 };
 #define R                  __m128d

@@ -50,16 +50,25 @@ static void push_range(const GiStage *stage, size_t first) {
     }
 }
 
+enum { TRACED_TOGETHER = 256 }; /* between two questions whether to stop */
+
 static void follow_chunk(const GiStage *stage, int count) {
     const GiWorld *world = stage->world;
-    for (int i = 0; i < count; i++) {
-        if (i % 16 == 0 && gi_stage_stopped(stage)) return;
-        const GiFlight *flight = &stage->scratch->chunk[i];
-        const GiTraceRay ray = {flight->origin, flight->direction, flight->t_min, INFINITY,
-            GI_SHAPE_NONE, GI_SHAPE_NONE};
-        GiTraceHit hit;
-        bool met = world->kernel->closest(&world->trace, &ray, &hit);
-        gi_surface_flight(stage, flight, met ? &hit : NULL);
+    GiTraceRay rays[TRACED_TOGETHER];
+    GiTraceHit hits[TRACED_TOGETHER];
+    for (int begin = 0; begin < count; begin += TRACED_TOGETHER) {
+        if (gi_stage_stopped(stage)) return;
+        const GiFlight *flights = stage->scratch->chunk + begin;
+        int together = count - begin < TRACED_TOGETHER ? count - begin : TRACED_TOGETHER;
+        for (int i = 0; i < together; i++) {
+            rays[i] = (GiTraceRay){flights[i].origin, flights[i].direction, flights[i].t_min,
+                INFINITY, GI_SHAPE_NONE, GI_SHAPE_NONE};
+        }
+        world->kernel->many_closest(&world->trace, rays, together, hits);
+        for (int i = 0; i < together; i++) {
+            bool met = hits[i].shape.bits != GI_SHAPE_NONE;
+            gi_surface_flight(stage, &flights[i], met ? &hits[i] : NULL);
+        }
     }
     stage->counts->other_rays += (uint64_t)count;
 }

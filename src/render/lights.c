@@ -149,16 +149,27 @@ static void add_point(const GiStage *stage, int i, GiVec light) {
     *color = gi_add(*color, light);
 }
 
-static bool is_blocked(const GiStage *stage, int i, const Beam *beam) {
+/* Shadow rays that are traced together, and what arrives if nothing is in the way. */
+enum { BEAMS_TOGETHER = 256 };
+typedef struct BeamBatch {
+    int count;
+    int point[BEAMS_TOGETHER];
+    GiVec light[BEAMS_TOGETHER];
+    GiTraceRay ray[BEAMS_TOGETHER];
+} BeamBatch;
+
+static void flush_beams(const GiStage *stage, BeamBatch *batch) {
     const GiWorld *world = stage->world;
-    const GiSpot *spot = &stage->scratch->spots[i];
-    stage->counts->shadow_rays++;
-    const GiTraceRay ray = {point_at(&stage->scratch->points, i), beam->direction, beam->t_min,
-        beam->t_max, spot->skip, spot->skip_instance};
-    return world->kernel->any(&world->trace, &ray);
+    bool blocked[BEAMS_TOGETHER];
+    world->kernel->many_any(&world->trace, batch->ray, batch->count, blocked);
+    stage->counts->shadow_rays += (uint64_t)batch->count;
+    for (int k = 0; k < batch->count; k++) {
+        if (!blocked[k]) add_point(stage, batch->point[k], batch->light[k]);
+    }
+    batch->count = 0;
 }
 
-static void add_beam(const GiStage *stage, int i, const Beam *beam) {
+static void add_beam(const GiStage *stage, int i, const Beam *beam, BeamBatch *batch) {
     GiShading at = gi_surface_shading(stage, i);
     GiVec value = gi_bsdf_evaluate(&at, beam->direction);
     double factor = beam->radiance ? gi_stage_radiance(&at) : 1;
@@ -167,8 +178,14 @@ static void add_beam(const GiStage *stage, int i, const Beam *beam) {
             stage, GI_TECHNIQUE_LIGHT, beam->density, gi_bsdf_density(&at, beam->direction));
     }
     GiVec light = gi_scale(gi_multiply(beam->light, value), factor);
-    if (gi_vec_is_zero(light) || is_blocked(stage, i, beam)) return;
-    add_point(stage, i, light);
+    if (gi_vec_is_zero(light)) return;
+    const GiSpot *spot = &stage->scratch->spots[i];
+    int k = batch->count++;
+    batch->point[k] = i;
+    batch->light[k] = light;
+    batch->ray[k] = (GiTraceRay){point_at(&stage->scratch->points, i), beam->direction, beam->t_min,
+        beam->t_max, spot->skip, spot->skip_instance};
+    if (batch->count == BEAMS_TOGETHER) flush_beams(stage, batch);
 }
 
 /* The random numbers for a large light at a point. */
@@ -232,21 +249,27 @@ static void add_ambient(const GiStage *stage, const GiLight *light) {
 static void add_beams(const GiStage *stage, size_t index) {
     const GiLight *light = &stage->world->scene->lights.data[index];
     bool directional = light->type == GLINT_LIGHT_DIRECTIONAL;
+    BeamBatch batch;
+    batch.count = 0;
     for (int i = 0; i < stage->scratch->point_count; i++) {
         if (i % 16 == 0 && gi_stage_stopped(stage)) return;
         Beam beam;
         bool any = directional ? directional_beam(stage, light, i, &beam)
                                : rectangle_beam(stage, index, i, &beam);
-        if (any) add_beam(stage, i, &beam);
+        if (any) add_beam(stage, i, &beam, &batch);
     }
+    flush_beams(stage, &batch);
 }
 
 static void add_sky(const GiStage *stage) {
+    BeamBatch batch;
+    batch.count = 0;
     for (int i = 0; i < stage->scratch->point_count; i++) {
         if (i % 16 == 0 && gi_stage_stopped(stage)) return;
         Beam beam;
-        if (sky_beam(stage, i, &beam)) add_beam(stage, i, &beam);
+        if (sky_beam(stage, i, &beam)) add_beam(stage, i, &beam, &batch);
     }
+    flush_beams(stage, &batch);
 }
 
 static void add_light(const GiStage *stage, size_t index) {

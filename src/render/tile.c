@@ -68,20 +68,27 @@ static bool ask(const void *control) { return stopped(control); }
 
 /* The rays of a parallel camera have no point in common. */
 static void trace_apart(const GiStage *stage) {
+    enum { TOGETHER = 256 };
     const GiWorld *world = stage->world;
     GiBundle *bundle = &stage->scratch->bundle;
-    for (int i = 0; i < bundle->count; i++) {
-        bundle->shape[i] = GI_SHAPE_NONE;
-        if (i % 16 == 0 && gi_stage_stopped(stage)) continue;
-        GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
-            bundle->skip[i], bundle->skip_instance[i]};
-        GiTraceHit hit;
-        bool any = world->kernel->closest(&world->trace, &ray, &hit);
-        bundle->shape[i] = any ? hit.shape.bits : GI_SHAPE_NONE;
-        if (!any) continue;
-        bundle->t[i] = hit.t;
-        bundle->instance[i] = hit.instance;
+    GiTraceRay rays[TOGETHER];
+    GiTraceHit hits[TOGETHER];
+    for (int i = 0; i < bundle->count; i++) bundle->shape[i] = GI_SHAPE_NONE;
+    for (int begin = 0; begin < bundle->count; begin += TOGETHER) {
+        if (gi_stage_stopped(stage)) return;
+        int count = bundle->count - begin < TOGETHER ? bundle->count - begin : TOGETHER;
+        for (int i = 0; i < count; i++) {
+            int k = begin + i;
+            rays[i] = (GiTraceRay){{bundle->ox[k], bundle->oy[k], bundle->oz[k]},
+                {bundle->dx[k], bundle->dy[k], bundle->dz[k]}, bundle->t_min[k], bundle->t_max[k],
+                bundle->skip[k], bundle->skip_instance[k]};
+        }
+        world->kernel->many_closest(&world->trace, rays, count, hits);
+        for (int i = 0; i < count; i++) {
+            bundle->shape[begin + i] = hits[i].shape.bits;
+            bundle->t[begin + i] = hits[i].t;
+            bundle->instance[begin + i] = hits[i].instance;
+        }
     }
 }
 

@@ -204,9 +204,8 @@ typedef struct GI_HIT(Corner) {
 /* Two components of the cross product of direction and corner: those that the direction's largest
  * component is a factor of (x_major, y_major, or neither). */
 static inline GI_HIT(Corner)
-    GI_HIT(corner)(const float p[3], const GI_HIT(Ray) * ray, M x_major, M y_major) {
-    R x = R_OF((double)p[0]) - ray->ox, y = R_OF((double)p[1]) - ray->oy,
-      z = R_OF((double)p[2]) - ray->oz;
+    GI_HIT(corner)(const R p[3], const GI_HIT(Ray) * ray, M x_major, M y_major) {
+    R x = p[0] - ray->ox, y = p[1] - ray->oy, z = p[2] - ray->oz;
     R cx = ray->dy * z - ray->dz * y, cy = ray->dz * x - ray->dx * z,
       cz = ray->dx * y - ray->dy * x;
     return (GI_HIT(Corner)){R_SELECT(x_major, cy, R_SELECT(y_major, cz, cx)),
@@ -229,10 +228,7 @@ typedef struct GI_HIT(Weights) {
  *
  * The depth is a mean of the corners' depths, so a meeting never lies outside of the triangle's own
  * range of depths, however small the angle. */
-static inline GI_HIT(Weights)
-    GI_HIT(weights)(const GiTriangles *triangles, uint32_t triangle, const GI_HIT(Ray) * ray) {
-    const float *corners[3];
-    gi_triangle_corners(triangles, triangle, corners);
+static inline GI_HIT(Weights) GI_HIT(weights_at)(R corners[3][3], const GI_HIT(Ray) * ray) {
     R dx = R_MAX(ray->dx, -ray->dx), dy = R_MAX(ray->dy, -ray->dy), dz = R_MAX(ray->dz, -ray->dz);
     M x_major = R_LESS_EQUAL(dy, dx) & R_LESS_EQUAL(dz, dx), y_major = R_LESS_EQUAL(dz, dy);
     GI_HIT(Corner) a = GI_HIT(corner)(corners[0], ray, x_major, y_major);
@@ -242,9 +238,25 @@ static inline GI_HIT(Weights)
     return (GI_HIT(Weights)){u, v, w, u * a.depth + v * b.depth + w * c.depth};
 }
 
-static inline M GI_HIT(triangle)(const GiTriangles *triangles, uint32_t triangle,
-    const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
-    GI_HIT(Weights) at = GI_HIT(weights)(triangles, triangle, ray);
+static inline void GI_HIT(corners)(
+    const GiTriangles *triangles, uint32_t triangle, R corners[3][3]) {
+    const float *points[3];
+    gi_triangle_corners(triangles, triangle, points);
+    for (int i = 0; i < 3; i++) {
+        for (int axis = 0; axis < 3; axis++) corners[i][axis] = R_OF((double)points[i][axis]);
+    }
+}
+
+static inline GI_HIT(Weights)
+    GI_HIT(weights)(const GiTriangles *triangles, uint32_t triangle, const GI_HIT(Ray) * ray) {
+    R corners[3][3];
+    GI_HIT(corners)(triangles, triangle, corners);
+    return GI_HIT(weights_at)(corners, ray);
+}
+
+static inline M GI_HIT(triangle_at)(
+    R corners[3][3], const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
+    GI_HIT(Weights) at = GI_HIT(weights_at)(corners, ray);
     R zero = R_OF(0);
     R least = R_MIN(at.u, R_MIN(at.v, at.w)), most = R_MAX(at.u, R_MAX(at.v, at.w));
     /* A triangle seen edge-on has no weights at all, and its t is no number; its neighbours have
@@ -252,6 +264,13 @@ static inline M GI_HIT(triangle)(const GiTriangles *triangles, uint32_t triangle
     *t = at.depth / (at.u + at.v + at.w) * ray->inverse_square;
     return (R_LESS_EQUAL(zero, least) | R_LESS_EQUAL(most, zero)) & R_LESS(t_min, *t) &
            R_LESS(*t, t_max);
+}
+
+static inline M GI_HIT(triangle)(const GiTriangles *triangles, uint32_t triangle,
+    const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
+    R corners[3][3];
+    GI_HIT(corners)(triangles, triangle, corners);
+    return GI_HIT(triangle_at)(corners, ray, t_min, t_max, t);
 }
 
 static inline M GI_HIT(unplaced)(
