@@ -86,7 +86,7 @@ static void save_pictures(const char *cache, const char *folder, Picture *pictur
         draw(cache, SAMPLE_SHADOW, SHOWN, SHOWN_EDGE, (GlintSampling)sampling, picture);
         GlintImage image = {SHOWN_EDGE, SHOWN_EDGE, picture->pixels};
         GlintSaveDesc desc = glint_save_desc_default();
-        message_format(path, sizeof path, "%s/noise-%s.png", folder, names[sampling]);
+        message_format(path, sizeof path, "%s/%s.png", folder, names[sampling]);
         if (glint_image_save(&image, path, &desc, &error) != GLINT_OK) {
             message_fail("%s: %s", path, error.message);
         }
