@@ -11,14 +11,19 @@
 
 enum {
     WALKER_COUNT = 32, /* 16 do not cover the way to memory, 64 leave the first cache */
-    LIST_COUNT = 5     /* GiChildKind, and those that have arrived */
+    LIST_COUNT = 5,    /* GiChildKind, and what else stands on a stack */
+    STACK_ROOM = 96    /* deep enough for all but strange trees, and the rays stay close together */
 };
 
-/* A ray under way. Of its stack all entries may still hold something: what a hit made too far is
- * thrown out at once, so that the next child is always the topmost, and the lowest entry is no
- * child, which ends the walk. */
+/* What else stands on a stack, above the children that there can be: an instance to go into, the
+ * way out of it, and the end, which looks like no child. */
+#define CHILD_INSTANCE 0xe0000000u /* and its index */
+#define CHILD_OUTSIDE  0xfffffffeu
+
+/* A ray under way. What a hit makes too far is thrown off the stack at once, so that the topmost
+ * entry is always the next. */
 typedef struct Walker {
-    Line line;
+    Line line; /* in the tree it is in */
     GiTraceHit best;
     double t_min, t_max;
     float from, to;
@@ -26,9 +31,12 @@ typedef struct Walker {
     uint32_t skip;                 /* of this tree */
     int number;                    /* of the ray */
     int depth;                     /* of the stack */
+    int floor;                     /* the lowest entry of this tree lies above */
     uint32_t child;                /* where it is; off the stack */
-    float enter[STACK_LIMIT + 9];
-    uint32_t children[STACK_LIMIT + 9];
+    const char *base[4];           /* where a tree has its children of a kind */
+    float enter[STACK_ROOM];
+    uint32_t children[STACK_ROOM];
+    Line outside; /* while in an instance */
 } Walker;
 
 typedef struct List {
@@ -36,36 +44,36 @@ typedef struct List {
     uint32_t walker[WALKER_COUNT];
 } List;
 
-/* A ray and a shape that it may meet. */
-enum { PAIR_LIMIT = 8 * WALKER_COUNT + 8 };
+/* Rays and shapes that they may meet. */
+enum { CANDIDATE_LIMIT = 8 * WALKER_COUNT + 8 };
 typedef struct Candidates {
     int count;
-    uint32_t walker[PAIR_LIMIT], shape[PAIR_LIMIT];
+    uint32_t walker[CANDIDATE_LIMIT], shape[CANDIDATE_LIMIT];
 } Candidates;
 
 typedef struct Wave {
     const GiTrace *trace;
     const GiTraceRay *rays;
     bool any;
-    /* Where a child of a kind lies. */
-    const char *base[4];
-    uint32_t size[4], mask[4];
-    List lists[2][LIST_COUNT]; /* of this round and the next */
+    uint32_t size[4], mask[4];              /* of a child of a kind: bytes, bits of the index */
+    List *now, *next, lists[2][LIST_COUNT]; /* what walkers do in this round and in the next */
+    List idle;
     Candidates triangles, others;
     Walker walkers[WALKER_COUNT];
 } Wave;
 
-static inline void walker_pop(Wave *wave, List *next, uint32_t number) {
+/* On to the topmost entry. */
+static inline void walker_pop(Wave *wave, uint32_t number) {
     Walker *walker = &wave->walkers[number];
     uint32_t child = walker->children[--walker->depth];
     walker->child = child;
     uint32_t kind = (uint32_t)gi_child_kind(child);
-    const char *at = wave->base[kind] + (size_t)(child & wave->mask[kind]) * wave->size[kind];
+    const char *at = walker->base[kind] + (size_t)(child & wave->mask[kind]) * wave->size[kind];
     prefetch(at);
     prefetch(at + 64);
     prefetch(at + 128);
     prefetch(at + 192);
-    List *list = &next[kind + (child == GI_CHILD_NONE)];
+    List *list = &wave->next[kind + (child >= CHILD_INSTANCE)];
     list->walker[list->count++] = number;
 }
 
@@ -76,8 +84,8 @@ static inline void walker_shorten(Walker *walker, bool any) {
         return;
     }
     walker->to = line_parameter(&walker->line, walker->best.t);
-    int kept = 1;
-    for (int i = 1; i < walker->depth; i++) {
+    int kept = walker->floor + 1;
+    for (int i = kept; i < walker->depth; i++) {
         float enter = walker->enter[i];
         walker->children[kept] = walker->children[i];
         walker->enter[kept] = enter;
@@ -86,39 +94,141 @@ static inline void walker_shorten(Walker *walker, bool any) {
     walker->depth = kept;
 }
 
-static inline void walker_begin(Wave *wave, List *next, uint32_t slot, int number) {
-    Walker *walker = &wave->walkers[slot];
-    const GiTree *tree = wave->trace->tree;
-    const GiTraceRay *ray = &wave->rays[number];
-    walker->line = line_of(tree, wave->trace->shapes, GI_SHAPE_NONE, ray);
-    walker->best = (GiTraceHit){ray->t_max, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
-    walker->t_min = ray->t_min;
-    walker->t_max = ray->t_max;
-    walker->number = number;
-    walker->skip = ray->skip_instance == GI_SHAPE_NONE ? ray->skip : GI_SHAPE_NONE;
+/* Its line is new. */
+static inline void walker_turn(Walker *walker) {
+    const Line *line = &walker->line;
+    const GiTraceRay *given = line->given;
+    walker->skip = given->skip_instance == line->instance ? given->skip : GI_SHAPE_NONE;
+    walker->base[GI_CHILD_NODE] = (const char *)line->tree->nodes;
+    walker->base[GI_CHILD_TRIANGLES] = (const char *)line->shapes->triangles.corners;
+    walker->base[GI_CHILD_BOXES] = (const char *)line->tree->box_blocks;
+    walker->base[GI_CHILD_SPHERES] = (const char *)line->tree->sphere_blocks;
     for (int axis = 0; axis < 3; axis++) {
-        walker->first_row[axis] = 8 * (axis + 3 * walker->line.negative[axis]);
-        walker->last_row[axis] = 8 * (axis + 3 * !walker->line.negative[axis]);
+        walker->first_row[axis] = 8 * (axis + 3 * line->negative[axis]);
+        walker->last_row[axis] = 8 * (axis + 3 * !line->negative[axis]);
     }
-    bool found = false;
-    for (uint32_t i = 0; i < tree->unbounded_count && !(found && wave->any); i++) {
-        found |= line_test(&walker->line, tree->unbounded[i], wave->any, &walker->best);
-    }
-    walker->from = line_parameter(&walker->line, ray->t_min);
-    walker->to = line_parameter(&walker->line, walker->best.t);
-    walker->children[0] = GI_CHILD_NONE;
+}
+
+/* Whether the stack may not hold a node's children, a block's instances, the two entries of one of
+ * these, and what whole vectors write behind them. The ray is then
+ * traced alone, from its beginning. */
+static inline bool walker_gives_up(const Wave *wave, Walker *walker) {
+    if (walker->depth <= STACK_ROOM - 24) return false;
+    const GiTraceRay *given = walker->line.given;
+    walker->best = (GiTraceHit){given->t_max, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
     walker->depth = 1;
-    if (!(found && wave->any) && walker->from <= walker->to) {
-        walker->children[1] = tree->root;
-        walker->enter[1] = walker->from;
-        walker->depth = 2;
+    line_alone(wave->trace, given, wave->any, &walker->best);
+    return true;
+}
+
+/* From the top of a tree. */
+static inline void walker_descend(Walker *walker, bool any) {
+    const GiTree *tree = walker->line.tree;
+    bool found = false;
+    for (uint32_t i = 0; i < tree->unbounded_count && !(found && any); i++) {
+        found |= line_test(&walker->line, tree->unbounded[i], any, &walker->best);
     }
-    walker_pop(wave, next, slot);
+    if (found) walker_shorten(walker, any);
+    walker->children[walker->depth] = tree->root;
+    walker->enter[walker->depth] = walker->from;
+    walker->depth += !(found && any) && tree->root != GI_CHILD_NONE && walker->from <= walker->to;
+}
+
+/* Up to GI_DOUBLES rays set out, with the operations of line_of. */
+static inline void wave_begin(Wave *wave, int first, int count) {
+    const GiTree *tree = wave->trace->tree;
+    const GiTraceRay *rays = wave->rays + first;
+    uint32_t index[GI_DOUBLES];
+    for (int i = 0; i < GI_DOUBLES; i++) index[i] = (uint32_t)(i < count ? i : count - 1);
+#define LANES(member) r_gather(&rays->member, index, (int)(sizeof *rays / sizeof(double)))
+    const gi_wide_Ray ray = gi_wide_ray(LANES(origin.x), LANES(origin.y), LANES(origin.z),
+        LANES(direction.x), LANES(direction.y), LANES(direction.z));
+    R t_min = LANES(t_min), t_max = LANES(t_max);
+#undef LANES
+    R scale = R_OF(tree->scale);
+    R length = R_SQRT(ray.dx * ray.dx + ray.dy * ray.dy + ray.dz * ray.dz);
+    R origin[3] = {(ray.ox - R_OF(tree->center.x)) * scale, (ray.oy - R_OF(tree->center.y)) * scale,
+        (ray.oz - R_OF(tree->center.z)) * scale};
+    R part = R_OF(1) / length;
+    R direction[3] = {ray.dx * part, ray.dy * part, ray.dz * part};
+    R shift = origin[0] * direction[0] + origin[1] * direction[1] + origin[2] * direction[2];
+    length = length * scale;
+    double o[10][GI_DOUBLES], lengths[GI_DOUBLES], shifts[GI_DOUBLES];
+    float places[3][GI_DOUBLES], slopes[3][GI_DOUBLES], inverses[3][GI_DOUBLES];
+    float from[GI_DOUBLES], to[GI_DOUBLES];
+    const R numbers[10] = {
+        ray.ox, ray.oy, ray.oz, ray.dx, ray.dy, ray.dz, ray.ix, ray.iy, ray.iz, ray.inverse_square};
+    for (int i = 0; i < 10; i++) r_store(o[i], numbers[i]);
+    r_store(lengths, length);
+    r_store(shifts, shift);
+    r_store_floats(from, t_min * length + shift);
+    r_store_floats(to, t_max * length + shift);
+    for (int axis = 0; axis < 3; axis++) {
+        R d = direction[axis];
+        r_store_floats(places[axis], origin[axis] - d * shift);
+        r_store_floats(slopes[axis], d);
+        r_store_floats(
+            inverses[axis], R_SELECT(R_LESS(R_ABS(d), R_OF(1e-30)), R_OF(1e30), R_OF(1) / d));
+    }
+    for (int i = 0; i < count; i++) {
+        uint32_t number = wave->idle.walker[--wave->idle.count];
+        Walker *walker = &wave->walkers[number];
+        Line *line = &walker->line;
+        line->tree = tree;
+        line->shapes = wave->trace->shapes;
+        line->instance = GI_SHAPE_NONE;
+        line->given = &rays[i];
+        line->ray = (gi_hit_Ray){o[0][i], o[1][i], o[2][i], o[3][i], o[4][i], o[5][i], o[6][i],
+            o[7][i], o[8][i], o[9][i]};
+        for (int axis = 0; axis < 3; axis++) {
+            line->origin[axis] = places[axis][i];
+            line->direction[axis] = slopes[axis][i];
+            line->inverse[axis] = inverses[axis][i];
+            line->negative[axis] = inverses[axis][i] < 0;
+        }
+        line->length = lengths[i];
+        line->shift = shifts[i];
+        walker->best = (GiTraceHit){rays[i].t_max, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
+        walker->t_min = rays[i].t_min;
+        walker->t_max = rays[i].t_max;
+        walker->from = from[i];
+        walker->to = to[i];
+        walker->number = first + i;
+        walker->children[0] = GI_CHILD_NONE;
+        walker->floor = 0;
+        walker->depth = 1;
+        walker_turn(walker);
+        walker_descend(walker, wave->any);
+        walker_pop(wave, number);
+    }
+}
+
+static inline void walker_enter(const Wave *wave, Walker *walker, uint32_t index) {
+    const GiShapes *shapes = wave->trace->shapes;
+    walker->outside = walker->line;
+    const GiTraceRay *given = walker->line.given;
+    const GiTraceRay inner = ray_inside(shapes, index, given);
+    walker->line = line_of(shapes->instances[index].tree, shapes, index, &inner, false);
+    walker->line.given = given; /* but for origin and direction the same */
+    walker->from = line_parameter(&walker->line, walker->t_min);
+    walker->to = line_parameter(&walker->line, walker->best.t);
+    walker->floor = walker->depth;
+    walker->children[walker->depth++] = CHILD_OUTSIDE;
+    walker_turn(walker);
+    walker_descend(walker, wave->any);
+}
+
+static inline void walker_leave(Walker *walker) {
+    walker->line = walker->outside;
+    walker->from = line_parameter(&walker->line, walker->t_min);
+    walker->floor = 0;
+    walker_turn(walker);
+    walker_shorten(walker, false);
 }
 
 /* The children that the line meets come onto the stack, the nearest on top. */
-static inline void walker_node(const Wave *wave, Walker *walker) {
-    const GiNode *node = &wave->trace->tree->nodes[gi_child_index(walker->child)];
+static inline void walker_node(Walker *walker) {
+    const GiNode *node = &walker->line.tree->nodes[gi_child_index(walker->child)];
     const float *rows = (const float *)node;
     F near = f_of(walker->from), far = f_of(walker->to);
     for (int axis = 0; axis < 3; axis++) {
@@ -134,10 +244,10 @@ static inline void walker_node(const Wave *wave, Walker *walker) {
 
 /* ---------------------------------------------------------------- leaves */
 
-static inline void pairs_add(
-    Candidates *pairs, uint32_t number, const GiShapeRef shape[8], unsigned bits) {
-    eight_fill(pairs->walker + pairs->count, number);
-    pairs->count += eight_append(pairs->shape + pairs->count, shape, bits);
+static inline void candidates_add(
+    Candidates *candidates, uint32_t number, const GiShapeRef shape[8], unsigned bits) {
+    eight_fill(candidates->walker + candidates->count, number);
+    candidates->count += eight_append(candidates->shape + candidates->count, shape, bits);
 }
 
 static inline void wave_spheres(Wave *wave, const List *list) {
@@ -145,26 +255,41 @@ static inline void wave_spheres(Wave *wave, const List *list) {
         uint32_t number = list->walker[i];
         const Walker *walker = &wave->walkers[number];
         const GiSphereBlock *block =
-            &wave->trace->tree->sphere_blocks[gi_child_index(walker->child)];
+            &walker->line.tree->sphere_blocks[gi_child_index(walker->child)];
         unsigned bits = line_spheres(&walker->line, block, walker->from, walker->to);
         bits &= ~eight_equal(walker->skip, block->shape);
-        pairs_add(&wave->others, number, block->shape, bits);
+        candidates_add(&wave->others, number, block->shape, bits);
     }
+}
+
+/* Instances are walked through like nodes. */
+static inline void walker_instances(
+    Walker *walker, const GiBoxBlock *block, unsigned bits, const float enter[8]) {
+    uint32_t child[8];
+    for (int i = 0; i < 8; i++) child[i] = CHILD_INSTANCE | gi_shape_index(block->shape[i]);
+    walker->depth += eight_push_sorted(walker->enter + walker->depth,
+        walker->children + walker->depth, f_load(enter), child, bits);
 }
 
 static inline void wave_boxes(Wave *wave, const List *list) {
     for (int i = 0; i < list->count; i++) {
         uint32_t number = list->walker[i];
-        const Walker *walker = &wave->walkers[number];
-        const GiBoxBlock *block = &wave->trace->tree->box_blocks[gi_child_index(walker->child)];
+        Walker *walker = &wave->walkers[number];
+        const GiBoxBlock *block = &walker->line.tree->box_blocks[gi_child_index(walker->child)];
         float enter[8];
         unsigned bits =
             line_boxes(&walker->line, block->low, block->high, walker->from, walker->to, enter);
         bits &= ~eight_equal(walker->skip, block->shape);
+        unsigned instances =
+            bits & eight_of_kind(gi_shape_ref(GI_SHAPE_INSTANCE, 0).bits, block->shape);
+        if (instances != 0) {
+            walker_instances(walker, block, instances, enter);
+            bits &= ~instances;
+        }
         unsigned triangles =
             bits & eight_of_kind(gi_shape_ref(GI_SHAPE_TRIANGLE, 0).bits, block->shape);
-        pairs_add(&wave->triangles, number, block->shape, triangles);
-        pairs_add(&wave->others, number, block->shape, bits & ~triangles);
+        candidates_add(&wave->triangles, number, block->shape, triangles);
+        candidates_add(&wave->others, number, block->shape, bits & ~triangles);
     }
 }
 
@@ -321,19 +446,39 @@ static inline void wave_init(Wave *wave, const GiTrace *trace, const GiTraceRay 
     wave->trace = trace;
     wave->rays = rays;
     wave->any = any;
-    const GiTree *tree = trace->tree;
-    wave->base[GI_CHILD_NODE] = (const char *)tree->nodes;
-    wave->base[GI_CHILD_TRIANGLES] = (const char *)trace->shapes->triangles.corners;
-    wave->base[GI_CHILD_BOXES] = (const char *)tree->box_blocks;
-    wave->base[GI_CHILD_SPHERES] = (const char *)tree->sphere_blocks;
-    wave->size[GI_CHILD_NODE] = sizeof *tree->nodes;
+    wave->size[GI_CHILD_NODE] = sizeof(GiNode);
     wave->size[GI_CHILD_TRIANGLES] = sizeof *trace->shapes->triangles.corners;
-    wave->size[GI_CHILD_BOXES] = sizeof *tree->box_blocks;
-    wave->size[GI_CHILD_SPHERES] = sizeof *tree->sphere_blocks;
-    for (int i = 0; i < 4; i++) wave->mask[i] = 0x3fffffffu;
-    wave->mask[GI_CHILD_TRIANGLES] = 0x07ffffffu;
-    for (int i = 0; i < LIST_COUNT; i++) wave->lists[0][i].count = wave->lists[1][i].count = 0;
+    wave->size[GI_CHILD_BOXES] = sizeof(GiBoxBlock);
+    wave->size[GI_CHILD_SPHERES] = sizeof(GiSphereBlock);
+    for (int i = 0; i < 4; i++) wave->mask[i] = gi_child_index(UINT32_MAX);
+    wave->mask[GI_CHILD_TRIANGLES] = gi_child_first(UINT32_MAX);
+    wave->now = wave->lists[0];
+    wave->next = wave->lists[1];
+    for (int i = 0; i < LIST_COUNT; i++) wave->next[i].count = 0;
     wave->triangles.count = wave->others.count = 0;
+    wave->idle.count = WALKER_COUNT;
+    for (uint32_t i = 0; i < WALKER_COUNT; i++) wave->idle.walker[i] = i;
+}
+
+/* All walkers take a step. */
+static inline void wave_round(Wave *wave) {
+    List *now = wave->next, *next = wave->now;
+    wave->now = now;
+    wave->next = next;
+    for (int i = 0; i < LIST_COUNT; i++) next[i].count = 0;
+    for (int i = 0; i < now[GI_CHILD_NODE].count; i++) {
+        uint32_t number = now[GI_CHILD_NODE].walker[i];
+        if (!walker_gives_up(wave, &wave->walkers[number])) walker_node(&wave->walkers[number]);
+        walker_pop(wave, number);
+    }
+    wave_spheres(wave, &now[GI_CHILD_SPHERES]);
+    wave_boxes(wave, &now[GI_CHILD_BOXES]);
+    wave_triangles(wave, &now[GI_CHILD_TRIANGLES]);
+    test_triangles(wave);
+    test_others(wave);
+    for (int kind = GI_CHILD_TRIANGLES; kind <= GI_CHILD_SPHERES; kind++) {
+        for (int i = 0; i < now[kind].count; i++) walker_pop(wave, now[kind].walker[i]);
+    }
 }
 
 /* hits, or for `any` blocked. */
@@ -341,41 +486,32 @@ static inline void wave_run(const GiTrace *trace, const GiTraceRay *rays, int co
     GiTraceHit *hits, bool *blocked) {
     Wave wave;
     wave_init(&wave, trace, rays, any);
-    List *now = wave.lists[0], *next = wave.lists[1];
-    int started = 0, under_way = 0;
-    for (; started < count && started < WALKER_COUNT; started++, under_way++) {
-        walker_begin(&wave, next, (uint32_t)started, started);
-    }
-    while (under_way > 0) {
-        List *swap = now;
-        now = next;
-        next = swap;
-        for (int i = 0; i < LIST_COUNT; i++) next[i].count = 0;
-        for (int i = 0; i < now[GI_CHILD_NODE].count; i++) {
-            uint32_t number = now[GI_CHILD_NODE].walker[i];
-            walker_node(&wave, &wave.walkers[number]);
-            walker_pop(&wave, next, number);
+    for (int started = 0, arrived = 0; arrived < count;) {
+        while (started < count && wave.idle.count >= GI_DOUBLES) {
+            int together = count - started < GI_DOUBLES ? count - started : GI_DOUBLES;
+            wave_begin(&wave, started, together);
+            started += together;
         }
-        wave_spheres(&wave, &now[GI_CHILD_SPHERES]);
-        wave_boxes(&wave, &now[GI_CHILD_BOXES]);
-        wave_triangles(&wave, &now[GI_CHILD_TRIANGLES]);
-        test_triangles(&wave);
-        test_others(&wave);
-        for (int kind = GI_CHILD_TRIANGLES; kind <= GI_CHILD_SPHERES; kind++) {
-            for (int i = 0; i < now[kind].count; i++) walker_pop(&wave, next, now[kind].walker[i]);
-        }
-        for (int i = 0; i < now[LIST_COUNT - 1].count; i++) {
-            uint32_t number = now[LIST_COUNT - 1].walker[i];
-            const Walker *walker = &wave.walkers[number];
+        wave_round(&wave);
+        const List *list = &wave.now[LIST_COUNT - 1];
+        for (int i = 0; i < list->count; i++) {
+            uint32_t number = list->walker[i];
+            Walker *walker = &wave.walkers[number];
+            if (walker->child != GI_CHILD_NONE) {
+                if (walker->child == CHILD_OUTSIDE) {
+                    walker_leave(walker);
+                } else {
+                    walker_enter(&wave, walker, walker->child & ~CHILD_INSTANCE);
+                }
+                walker_pop(&wave, number);
+                continue;
+            }
+            arrived++;
+            wave.idle.walker[wave.idle.count++] = number;
             if (any) {
                 blocked[walker->number] = walker->best.shape.bits != GI_SHAPE_NONE;
             } else {
                 hits[walker->number] = walker->best;
-            }
-            if (started < count) {
-                walker_begin(&wave, next, number, started++);
-            } else {
-                under_way--;
             }
         }
     }

@@ -70,8 +70,9 @@ typedef struct Line {
     SeenFrom seen;        /* from the same origin */
 } Line;
 
-static inline Line line_of(
-    const GiTree *tree, const GiShapes *shapes, uint32_t instance, const GiTraceRay *r) {
+/* looks: at triangles, with line_triangles. */
+static inline Line line_of(const GiTree *tree, const GiShapes *shapes, uint32_t instance,
+    const GiTraceRay *r, bool looks) {
     Line line = {.tree = tree, .shapes = shapes, .instance = instance, .given = r};
     line.ray = gi_hit_ray(
         r->origin.x, r->origin.y, r->origin.z, r->direction.x, r->direction.y, r->direction.z);
@@ -90,7 +91,7 @@ static inline Line line_of(
         line.inverse[axis] = fabs(direction[axis]) < 1e-30 ? 1e30f : (float)(1 / direction[axis]);
         line.negative[axis] = line.inverse[axis] < 0;
     }
-    if (tree->has_triangles) {
+    if (looks && tree->has_triangles) {
         double lost = 0x1p-47 * gi_largest(tree->center) + 2 * GI_TREE_GROWTH_LEAST / tree->scale;
         seen_from_init(
             &line.seen, gi_add(gi_scale(o, 1 / tree->scale), tree->center), lost, tree->scale);
@@ -270,10 +271,21 @@ static inline bool line_test(const Line *line, GiShapeRef ref, bool any, GiTrace
     return line_keep(line, ref, t, best);
 }
 
+/* The same ray in the instance's space, where t is the same; gi_hit_to_object has the same
+ * operations. */
+static inline GiTraceRay ray_inside(const GiShapes *shapes, uint32_t index, const GiTraceRay *ray) {
+    uint32_t transform = shapes->instances[index].transform;
+    const GiAffine *to_object = &shapes->transforms[transform].to_object;
+    GiTraceRay inner = *ray;
+    inner.origin = gi_affine_point(to_object, ray->origin);
+    inner.direction = gi_affine_vector(to_object, ray->direction);
+    return inner;
+}
+
 /* Lowers *hit, or for `any` returns at the first hit. Returns whether there was one. */
 static inline bool line_trace(const GiTree *tree, const GiShapes *shapes, uint32_t instance,
     const GiTraceRay *ray, bool any, GiTraceHit *hit) {
-    const Line line = line_of(tree, shapes, instance, ray);
+    const Line line = line_of(tree, shapes, instance, ray, true);
     GiTraceHit best = *hit;
     bool found = false;
     for (uint32_t i = 0; i < tree->unbounded_count; i++) {
@@ -328,25 +340,27 @@ static inline bool line_trace(const GiTree *tree, const GiShapes *shapes, uint32
     return found;
 }
 
-/* The same ray in the instance's space, where t is the same; gi_hit_to_object has the same
- * operations. An instance holds no instances, so there is one step down at most. */
+/* An instance holds no instances, so there is one step down at most. */
 static bool line_instance(
     const GiShapes *shapes, uint32_t index, const GiTraceRay *ray, bool any, GiTraceHit *best) {
-    const GiInstance *instance = &shapes->instances[index];
-    const GiAffine *to_object = &shapes->transforms[instance->transform].to_object;
-    GiTraceRay inner = *ray;
-    inner.origin = gi_affine_point(to_object, ray->origin);
-    inner.direction = gi_affine_vector(to_object, ray->direction);
-    return any ? line_trace(instance->tree, shapes, index, &inner, true, best)
-               : line_trace(instance->tree, shapes, index, &inner, false, best);
+    const GiTree *tree = shapes->instances[index].tree;
+    const GiTraceRay inner = ray_inside(shapes, index, ray);
+    return any ? line_trace(tree, shapes, index, &inner, true, best)
+               : line_trace(tree, shapes, index, &inner, false, best);
+}
+
+/* From hit->t on downward. */
+static bool line_alone(const GiTrace *trace, const GiTraceRay *ray, bool any, GiTraceHit *hit) {
+    return any ? line_trace(trace->tree, trace->shapes, GI_SHAPE_NONE, ray, true, hit)
+               : line_trace(trace->tree, trace->shapes, GI_SHAPE_NONE, ray, false, hit);
 }
 
 static bool GI_KERNEL(closest)(const GiTrace *trace, const GiTraceRay *ray, GiTraceHit *hit) {
     *hit = (GiTraceHit){ray->t_max, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
-    return line_trace(trace->tree, trace->shapes, GI_SHAPE_NONE, ray, false, hit);
+    return line_alone(trace, ray, false, hit);
 }
 
 static bool GI_KERNEL(any)(const GiTrace *trace, const GiTraceRay *ray) {
     GiTraceHit hit = {ray->t_max, {GI_SHAPE_NONE}, GI_SHAPE_NONE};
-    return line_trace(trace->tree, trace->shapes, GI_SHAPE_NONE, ray, true, &hit);
+    return line_alone(trace, ray, true, &hit);
 }
