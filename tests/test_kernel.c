@@ -614,6 +614,26 @@ static void deep_tree(void) {
     fixture_end(&fixture);
 }
 
+/* More children on the way than a ray under way among others can note down: all of the shells are
+ * met, level after level, before anything is hit. */
+static void wide_and_deep_tree(void) {
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+    double size = 1;
+    for (int i = 0; i < 120; i++, size *= 0.8) {
+        for (int k = 0; k < 8; k++) {
+            GiShapeRef ref;
+            GiVec corner = gi_vec(size, (k + 1) * 1e-3 * size, (k + 1) * 1e-3 * size);
+            GiVec opposite = gi_vec(-size * (1 - k * 1e-3), -corner.y, -corner.z * 0.5);
+            CHECK(gi_scene_add_box(&fixture.scene, corner, opposite, 0, &ref));
+            CHECK(gi_scene_place(&fixture.scene, GI_SHAPE_NONE, ref));
+        }
+    }
+    fixture_commit(&fixture, gi_kernel_at(0));
+    compare_all(&fixture, origin, 1, 300, "wide and deep tree");
+    fixture_end(&fixture);
+}
+
 static void empty_scene(void) {
     Fixture fixture;
     fixture_begin(&fixture, GLINT_DIALECT_GLINT);
@@ -650,4 +670,4 @@ const GiTest tests_kernel[] = {TEST(names), TEST(empty_scene), TEST(few_shapes),
     TEST(interior_rule), TEST(large_range), TEST(far_away), TEST(extreme_scales), TEST(one_outlier),
     TEST(groups), TEST(meshes), TEST(large_and_small_triangles), TEST(instances),
     TEST(unbounded_instances), TEST(instances_far_away), TEST(rectangles), TEST(doubled_groups),
-    TEST(coincident), TEST(deep_tree), TEST_END};
+    TEST(coincident), TEST(deep_tree), TEST(wide_and_deep_tree), TEST_END};
