@@ -1,29 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 #include "math/elementary.h"
 
+#include "math/bits.h"
+
 #include <math.h>
-#include <stdint.h>
-#include <string.h>
-
-static uint64_t bits_of(double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-static double from_bits(uint64_t bits) {
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
 
 /* log2 of a positive, finite, normal number as a sum high + low, high being the whole part plus the
  * leading term. log2 m = 2/ln 2 * (s + s^3/3 + s^5/5 + ...), s = (m-1)/(m+1), m in [0.707, 1.414],
  * so |s| < 0.1716 and the terms after s^19 are below 1e-17 relative. */
 static void log2_parts(double value, double *whole, double *fraction) {
-    uint64_t bits = bits_of(value);
+    uint64_t bits = gi_bits_of(value);
     int exponent = (int)(bits >> 52) - 1023;
-    double m = from_bits((bits & 0x000fffffffffffffu) | 0x3ff0000000000000u);
+    double m = gi_from_bits((bits & 0x000fffffffffffffu) | 0x3ff0000000000000u);
     if (m > 1.4142135623730951) {
         m *= 0.5;
         exponent++;
@@ -86,8 +74,8 @@ double gi_pow(double base, double exponent) {
     double power = exp2_fraction((x - nearest) + y);
     /* Two factors, because 2^nearest alone may leave the range while the result does not. */
     int half = (int)nearest / 2, rest = (int)nearest - half;
-    return power * from_bits((uint64_t)(1023 + half) << 52) *
-           from_bits((uint64_t)(1023 + rest) << 52);
+    return power * gi_from_bits((uint64_t)(1023 + half) << 52) *
+           gi_from_bits((uint64_t)(1023 + rest) << 52);
 }
 
 /* ---------------------------------------------------------------- exponential and logarithm */
@@ -118,8 +106,8 @@ double gi_exp(double x) {
     double power = 1 + (r + (r * r * polynomial(series, 12, r) + rest));
     /* Two factors, as in gi_pow. */
     int half = (int)k / 2, other = (int)k - half;
-    return power * from_bits((uint64_t)(1023 + half) << 52) *
-           from_bits((uint64_t)(1023 + other) << 52);
+    return power * gi_from_bits((uint64_t)(1023 + half) << 52) *
+           gi_from_bits((uint64_t)(1023 + other) << 52);
 }
 
 /* x = 2^k (1 + f) with 1 + f in [0.707, 1.414]. With s = f / (2 + f) and q = s^2,
@@ -137,8 +125,8 @@ double gi_log(double x) {
         x *= 0x1p54;
         k -= 54;
     }
-    k += (int)(bits_of(x) >> 52);
-    double m = from_bits((bits_of(x) & 0x000fffffffffffffu) | 0x3ff0000000000000u);
+    k += (int)(gi_bits_of(x) >> 52);
+    double m = gi_from_bits((gi_bits_of(x) & 0x000fffffffffffffu) | 0x3ff0000000000000u);
     if (m > 1.4142135623730951) {
         m *= 0.5;
         k++;

@@ -4,6 +4,8 @@
  * then whole numbers of any length tell on which side of the middle the decimal number is. */
 #include "mesh/decimal.h"
 
+#include "math/bits.h"
+
 #include "mesh/digits.h"
 
 #include <math.h> /* INFINITY */
@@ -24,18 +26,6 @@ static const double powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9
     1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 enum { POWER_LIMIT = 22, CERTAIN_DIGITS = 18 };
-
-static uint64_t bits_of(double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-static double from_bits(uint64_t bits) {
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
 
 /* ---------------------------------------------------------------- any length */
 
@@ -90,7 +80,7 @@ static int big_from_digits(Big *big, const Decimal *decimal) {
 /* The sign of decimal - middle, where middle = m * 2^e with a whole number m below 2^32. Powers of
  * five and two go to the side where they are whole. */
 static int compare(const Decimal *decimal, double middle) {
-    uint64_t bits = bits_of(middle);
+    uint64_t bits = gi_bits_of(middle);
     uint32_t mantissa = (uint32_t)(bits >> 21) | UINT32_C(1) << 31;
     Big left = {.count = 0}, right = {.limb = {mantissa}, .count = 1};
     int ten = (int)decimal->exponent - big_from_digits(&left, decimal);
@@ -103,7 +93,7 @@ static int compare(const Decimal *decimal, double middle) {
 /* The middle between the two floats round a positive double. */
 static double middle_near(double value) {
     if (value < 0x1p-126) return ((double)(uint32_t)(value * 0x1p149) + 0.5) * 0x1p-149;
-    return from_bits((bits_of(value) & ~UINT64_C(0x1fffffff)) | 0x10000000);
+    return gi_from_bits((gi_bits_of(value) & ~UINT64_C(0x1fffffff)) | 0x10000000);
 }
 
 /* ---------------------------------------------------------------- rounding */
@@ -111,7 +101,7 @@ static double middle_near(double value) {
 /* Whether a double with an error of up to 8 units in the last place rounds to the float that the
  * exact number rounds to. Below the normal floats the middles lie elsewhere. */
 static bool is_decided(double value) {
-    uint32_t rest = (uint32_t)bits_of(value) & 0x1fffffff;
+    uint32_t rest = (uint32_t)gi_bits_of(value) & 0x1fffffff;
     return rest - (0x10000000 - 8) > 16 && value >= 0x1p-126;
 }
 
@@ -130,7 +120,7 @@ static float convert(const Decimal *decimal) {
     if (is_decided(value)) return to_float(value);
     double middle = middle_near(value);
     int side = compare(decimal, middle);
-    return to_float(from_bits(bits_of(middle) + (uint64_t)(int64_t)side));
+    return to_float(gi_from_bits(gi_bits_of(middle) + (uint64_t)(int64_t)side));
 }
 
 /* ---------------------------------------------------------------- reading */
