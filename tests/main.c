@@ -26,6 +26,7 @@
     X(hit) \
     X(shape) \
     X(kernel) \
+    X(stream) \
     X(image) \
     X(file) \
     X(light) \

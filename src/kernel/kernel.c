@@ -20,6 +20,7 @@
 #include "kernel/frustum.h"
 #include "kernel/bundle.h"
 #include "kernel/light.h"
+#include "kernel/stream.h"
 #include "kernel/regroup_order.h"
 
 extern const GiKernel GI_KERNEL(kernel);
@@ -32,7 +33,11 @@ const GiKernel GI_KERNEL(kernel) = {
     GI_KERNEL(many_any),
     GI_KERNEL(bundle_closest),
     GI_KERNEL(bundle_any),
+    GI_KERNEL(view),
+    GI_KERNEL(spheres),
     GI_KERNEL(light),
+    GI_KERNEL(shadows),
+    GI_KERNEL(add),
     GI_KERNEL(regroup_init),
     GI_KERNEL(regroup),
 };

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "accel/layout.h"
+#include "math/view.h"
 #include "kernel/points.h"
 #include "kernel/regroup.h"
 
@@ -51,7 +52,8 @@ typedef struct GiBundle {
     uint32_t skip[GI_BUNDLE_SIZE], skip_instance[GI_BUNDLE_SIZE];
     double t[GI_BUNDLE_SIZE];
     uint32_t shape[GI_BUNDLE_SIZE], instance[GI_BUNDLE_SIZE];
-    int count; /* 1 to GI_BUNDLE_SIZE */
+    uint32_t pixel[GI_BUNDLE_SIZE]; /* the caller's, of camera rays */
+    int count;                      /* 1 to GI_BUNDLE_SIZE */
     GiVec apex;
     GiVec side; /* a direction the packets are aligned with; zero: none known */
     /* Asked every few thousand exact tests, when it is not null; true: the bundle may stay
@@ -74,10 +76,21 @@ typedef struct GiKernel {
     void (*many_any)(const GiTrace *trace, const GiTraceRay *rays, int count, bool *blocked);
     void (*bundle_closest)(const GiTrace *trace, GiBundle *bundle);
     void (*bundle_any)(const GiTrace *trace, GiBundle *bundle);
+    /* Origins and directions of the bundle's rays, through the window coordinates a and b. */
+    void (*view)(const GiView *view, const double *a, const double *b, GiBundle *bundle);
+    /* Appends the points where rays of the bundle, named by their indices, met spheres that are
+     * neither placed nor instances'. `spared`: shadow rays do not meet the sphere they start on. */
+    void (*spheres)(const GiShapes *shapes, const GiBundle *bundle, const uint32_t *rays, int count,
+        bool spared, GiPoints *points);
     /* Appends to *lit what the light adds to the points begin to end - 1, all of one shader, where
      * it is not nothing, as shade/shade.h has it to the last bit. */
     void (*light)(const GiPoints *points, int begin, int end, const GiPointLight *light,
         const GiGloss *gloss, GiLit *lit);
+    /* The shadow rays to bundle->apex of the lit that `order` names, bundle->count of them. */
+    void (*shadows)(
+        const GiPoints *points, const GiLit *lit, const uint16_t *order, GiBundle *bundle);
+    /* Adds the lit that arrive to the colors of their points' pixels, all different ones. */
+    void (*add)(const GiPoints *points, const GiLit *lit, GiVec *color);
     void (*regroup_init)(GiRegroup *regroup); /* once */
     /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT. */
     void (*regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z, int count);

@@ -8,19 +8,25 @@ typedef struct Wide {
     R x, y, z;
 } Wide;
 
+static inline Wide wide_add(Wide a, Wide b) { return (Wide){a.x + b.x, a.y + b.y, a.z + b.z}; }
 static inline R wide_dot(Wide a, Wide b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static inline Wide wide_scale(Wide a, R s) { return (Wide){a.x * s, a.y * s, a.z * s}; }
 
-/* As gi_normalize, of a vector that is not longer than 2: what is too short is scaled first. */
+/* As gi_along. */
+static inline Wide wide_along(Wide o, Wide d, R t) {
+    return (Wide){o.x + d.x * t, o.y + d.y * t, o.z + d.z * t};
+}
+
+/* As gi_normalize: what is too short or too long is scaled first. */
 static inline Wide wide_normalize(Wide a) {
     R square = wide_dot(a, a);
-    M regular = R_LESS(R_OF(1e-280), square);
+    M regular = R_LESS(R_OF(1e-280), square) & R_LESS(square, R_OF(1e280));
     if (m_bits(regular) != m_bits(M_OF(true))) {
         R largest = R_MAX(R_ABS(a.x), R_MAX(R_ABS(a.y), R_ABS(a.z)));
-        M tiny = M_NOT(regular) & R_LESS(R_OF(0), largest);
-        R divisor = R_SELECT(tiny, largest, R_OF(1));
+        M scaled = M_NOT(regular) & R_LESS(R_OF(0), largest);
+        R divisor = R_SELECT(scaled, largest, R_OF(1));
         a = (Wide){a.x / divisor, a.y / divisor, a.z / divisor};
-        square = R_SELECT(tiny, wide_dot(a, a), square);
+        square = R_SELECT(scaled, wide_dot(a, a), square);
         square = R_SELECT(R_EQUAL(square, R_OF(0)), R_OF(1), square); /* zero stays zero */
     }
     return wide_scale(a, R_OF(1) / R_SQRT(square));

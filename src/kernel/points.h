@@ -17,6 +17,10 @@ typedef struct GiPoints {
     double nx[GI_POINT_ROOM], ny[GI_POINT_ROOM], nz[GI_POINT_ROOM]; /* unit normal */
     double vx[GI_POINT_ROOM], vy[GI_POINT_ROOM], vz[GI_POINT_ROOM]; /* unit, toward the viewer */
     double error[GI_POINT_ROOM]; /* distance within which a ray may meet its own surface */
+    uint32_t pixel[GI_POINT_ROOM];
+    /* What shadow rays from here do not meet, or GI_SHAPE_NONE. */
+    uint32_t skip[GI_POINT_ROOM], skip_instance[GI_POINT_ROOM];
+    int count;
 } GiPoints;
 
 typedef struct GiPointLight {
@@ -43,4 +47,5 @@ typedef struct GiLit {
     double red[GI_POINT_ROOM], green[GI_POINT_ROOM], blue[GI_POINT_ROOM];
     double t_min[GI_POINT_ROOM];                                /* the light is at t = 1 */
     float x[GI_POINT_ROOM], y[GI_POINT_ROOM], z[GI_POINT_ROOM]; /* unit direction */
+    uint8_t arrives[GI_POINT_ROOM];                             /* 1: nothing is in the way */
 } GiLit;

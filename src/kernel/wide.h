@@ -14,6 +14,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #define GI_PASTE_(a, b) a##b
 #define GI_PASTE(a, b)  GI_PASTE_(a, b)
@@ -356,6 +357,28 @@ static inline void u_append_indices(uint32_t *to, unsigned bits, uint32_t base) 
         _mm256_add_epi32(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32((int)base));
     _mm256_storeu_si256((__m256i *)(void *)to, _mm256_maskz_compress_epi32((__mmask8)bits, all));
 }
+static inline void u_gather(uint32_t *to, const uint32_t *p, const uint32_t *index) {
+    __m256i all = _mm256_loadu_si256((const __m256i *)(const void *)index);
+    _mm256_storeu_si256(
+        (__m256i *)(void *)to, _mm256_i32gather_epi32((const int *)(const void *)p, all, 4));
+}
+static inline void u_widen(uint32_t *to, const uint16_t *from) {
+    __m128i all = _mm_loadu_si128((const __m128i *)(const void *)from);
+    _mm256_storeu_si256((__m256i *)(void *)to, _mm256_cvtepu16_epi32(all));
+}
+/* Bits of bytes that are 0 or 1. */
+static inline unsigned u_bits_of(const uint8_t *p) {
+    return (unsigned)_mm_test_epi8_mask(
+        _mm_loadl_epi64((const __m128i *)(const void *)p), _mm_set1_epi8(1));
+}
+/* Adds the lanes whose bits are set to p[index * stride], all different places. */
+static inline void r_add_where(double *p, const uint32_t *index, int stride, R a, unsigned bits) {
+    __m256i all = _mm256_loadu_si256((const __m256i *)(const void *)index);
+    all = _mm256_mullo_epi32(all, _mm256_set1_epi32(stride));
+    __mmask8 mask = (__mmask8)bits;
+    R sum = _mm512_mask_i32gather_pd(a, mask, all, p, 8) + a;
+    _mm512_mask_i32scatter_pd(p, mask, all, sum, 8);
+}
 #elif defined(GI_IS_AVX2)
 enum { GI_DOUBLES = 4 };
 #define R                  __m256d
@@ -407,6 +430,9 @@ static inline void r_store(double *p, R a) { _mm_storeu_pd(p, a); }
 static inline void r_store_floats(float *p, R a) {
     _mm_storel_epi64((__m128i *)(void *)p, _mm_castps_si128(_mm_cvtpd_ps(a)));
 }
+static inline R r_gather(const double *p, const uint32_t *index, int stride) {
+    return _mm_set_pd(p[(size_t)index[1] * (size_t)stride], p[(size_t)index[0] * (size_t)stride]);
+}
 #else
 enum { GI_DOUBLES = 1 };
 #define R                  double
@@ -426,6 +452,9 @@ static inline unsigned m_bits(M m) { return (unsigned)m; }
 static inline R r_load(const double *p) { return *p; }
 static inline void r_store(double *p, R a) { *p = a; }
 static inline void r_store_floats(float *p, R a) { *p = (float)a; }
+static inline R r_gather(const double *p, const uint32_t *index, int stride) {
+    return p[(size_t)index[0] * (size_t)stride];
+}
 #endif
 
 #ifndef GI_IS_AVX512
@@ -463,7 +492,33 @@ static inline void u_append_indices(uint32_t *to, unsigned bits, uint32_t base) 
         to += bits >> i & 1;
     }
 }
+static inline void u_gather(uint32_t *to, const uint32_t *p, const uint32_t *index) {
+    for (int i = 0; i < GI_DOUBLES; i++) to[i] = p[index[i]];
+}
+static inline void u_widen(uint32_t *to, const uint16_t *from) {
+    for (int i = 0; i < GI_DOUBLES; i++) to[i] = from[i];
+}
+static inline unsigned u_bits_of(const uint8_t *p) {
+    unsigned bits = 0;
+    for (int i = 0; i < GI_DOUBLES; i++) bits |= (unsigned)p[i] << i;
+    return bits;
+}
+static inline void r_add_where(double *p, const uint32_t *index, int stride, R a, unsigned bits) {
+    double lane[GI_DOUBLES];
+    r_store(lane, a);
+    for (int i = 0; i < GI_DOUBLES; i++) {
+        if (bits >> i & 1) p[(size_t)index[i] * (size_t)stride] += lane[i];
+    }
+}
 #endif
+
+/* As many numbers as R has lanes. */
+static inline void u_copy(uint32_t *to, const uint32_t *from) {
+    memcpy(to, from, GI_DOUBLES * sizeof *to);
+}
+static inline void u_fill(uint32_t *to, uint32_t value) {
+    for (int i = 0; i < GI_DOUBLES; i++) to[i] = value;
+}
 
 /* ---------------------------------------------------------------- bits, memory */
 

@@ -76,7 +76,7 @@ static void follow_chunk(const GiStage *stage, int count) {
 void gi_flight_follow(const GiStage *stage) {
     GiTileScratch *scratch = stage->scratch;
     push_range(stage, 0);
-    scratch->weighted = true;
+    scratch->weighted = scratch->shared = true;
     while (scratch->ranges.count > 0 && !gi_stage_stopped(stage)) {
         int count = take_chunk(scratch);
         size_t first = scratch->flights.count;

@@ -2,6 +2,14 @@
 #include "render/stage.h"
 #include "shade/shade.h"
 
+/* What arrives at point i. */
+static void add_point(const GiStage *stage, int i, GiVec light) {
+    GiTileScratch *scratch = stage->scratch;
+    if (scratch->weighted) light = gi_multiply(scratch->factors[i], light);
+    GiVec *color = &scratch->color[scratch->points.pixel[i]];
+    *color = gi_add(*color, light);
+}
+
 /* ---------------------------------------------------------------- point lights */
 
 bool gi_lights_gloss(const GiRules *rules, const GiShader *shader, GiGloss *gloss) {
@@ -61,7 +69,7 @@ static void trace_lit(const GiStage *stage, GiVec light) {
     GiTileScratch *scratch = stage->scratch;
     GiBundle *bundle = &scratch->bundle;
     const GiPoints *points = &scratch->points;
-    const GiLit *lit = &scratch->lit;
+    GiLit *lit = &scratch->lit;
     stage->world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count);
     for (int begin = 0; begin < lit->count; begin += GI_BUNDLE_SIZE) {
         if (gi_stage_stopped(stage)) return;
@@ -69,23 +77,10 @@ static void trace_lit(const GiStage *stage, GiVec light) {
         bundle->count = lit->count - begin < GI_BUNDLE_SIZE ? lit->count - begin : GI_BUNDLE_SIZE;
         bundle->apex = light;
         bundle->side = gi_vec(0, 0, 0);
-        for (int i = 0; i < bundle->count; i++) {
-            uint32_t point = lit->point[order[i]];
-            double x = points->px[point], y = points->py[point], z = points->pz[point];
-            bundle->ox[i] = x;
-            bundle->oy[i] = y;
-            bundle->oz[i] = z;
-            bundle->dx[i] = light.x - x;
-            bundle->dy[i] = light.y - y;
-            bundle->dz[i] = light.z - z;
-            bundle->t_min[i] = lit->t_min[order[i]];
-            bundle->t_max[i] = 1;
-            bundle->skip[i] = scratch->spots[point].skip;
-            bundle->skip_instance[i] = scratch->spots[point].skip_instance;
-        }
+        stage->world->kernel->shadows(points, lit, order, bundle);
         stage->world->kernel->bundle_any(&stage->world->trace, bundle);
         for (int i = 0; i < bundle->count; i++) {
-            scratch->arrives[order[i]] = bundle->shape[i] == GI_SHAPE_NONE;
+            lit->arrives[order[i]] = bundle->shape[i] == GI_SHAPE_NONE;
         }
     }
 }
@@ -93,13 +88,13 @@ static void trace_lit(const GiStage *stage, GiVec light) {
 static void add_lit(const GiStage *stage) {
     GiTileScratch *scratch = stage->scratch;
     const GiLit *lit = &scratch->lit;
+    if (!scratch->weighted && !scratch->shared) {
+        stage->world->kernel->add(&scratch->points, lit, scratch->color);
+        return;
+    }
     for (int k = 0; k < lit->count; k++) {
-        if (!scratch->arrives[k]) continue;
-        uint32_t point = lit->point[k];
-        GiVec adds = {lit->red[k], lit->green[k], lit->blue[k]};
-        if (scratch->weighted) adds = gi_multiply(scratch->factors[point], adds);
-        GiVec *color = &scratch->color[scratch->spots[point].pixel];
-        *color = gi_add(*color, adds);
+        if (lit->arrives[k] == 0) continue;
+        add_point(stage, (int)lit->point[k], gi_vec(lit->red[k], lit->green[k], lit->blue[k]));
     }
 }
 
@@ -142,13 +137,6 @@ static double away_of(const GiStage *stage, int i) {
     return distance > 0 ? distance : stage->scratch->points.error[i];
 }
 
-static void add_point(const GiStage *stage, int i, GiVec light) {
-    GiTileScratch *scratch = stage->scratch;
-    if (scratch->weighted) light = gi_multiply(scratch->factors[i], light);
-    GiVec *color = &scratch->color[scratch->spots[i].pixel];
-    *color = gi_add(*color, light);
-}
-
 /* Shadow rays that are traced together, and what arrives if nothing is in the way. */
 enum { BEAMS_TOGETHER = 256 };
 typedef struct BeamBatch {
@@ -179,20 +167,20 @@ static void add_beam(const GiStage *stage, int i, const Beam *beam, BeamBatch *b
     }
     GiVec light = gi_scale(gi_multiply(beam->light, value), factor);
     if (gi_vec_is_zero(light)) return;
-    const GiSpot *spot = &stage->scratch->spots[i];
+    const GiPoints *points = &stage->scratch->points;
     int k = batch->count++;
     batch->point[k] = i;
     batch->light[k] = light;
-    batch->ray[k] = (GiTraceRay){point_at(&stage->scratch->points, i), beam->direction, beam->t_min,
-        beam->t_max, spot->skip, spot->skip_instance};
+    batch->ray[k] = (GiTraceRay){point_at(points, i), beam->direction, beam->t_min, beam->t_max,
+        points->skip[i], points->skip_instance[i]};
     if (batch->count == BEAMS_TOGETHER) flush_beams(stage, batch);
 }
 
 /* The random numbers for a large light at a point. */
 static void draw_pair(const GiStage *stage, int i, uint32_t purpose, double u[2]) {
-    const GiSpot *spot = &stage->scratch->spots[i];
-    GiSampler sampler = gi_stage_sampler(stage, spot->pixel);
-    gi_sample_2d(&sampler, gi_stage_dimension(spot->level, purpose), u);
+    const GiTileScratch *scratch = stage->scratch;
+    GiSampler sampler = gi_stage_sampler(stage, scratch->points.pixel[i]);
+    gi_sample_2d(&sampler, gi_stage_dimension(scratch->spots[i].level, purpose), u);
 }
 
 static bool directional_beam(const GiStage *stage, const GiLight *light, int i, Beam *beam) {
@@ -240,7 +228,7 @@ static bool sky_beam(const GiStage *stage, int i, Beam *beam) {
 }
 
 static void add_ambient(const GiStage *stage, const GiLight *light) {
-    for (int i = 0; i < stage->scratch->point_count; i++) {
+    for (int i = 0; i < stage->scratch->points.count; i++) {
         GiShading at = gi_surface_shading(stage, i);
         add_point(stage, i, gi_shade_ambient(&at, light));
     }
@@ -251,7 +239,7 @@ static void add_beams(const GiStage *stage, size_t index) {
     bool directional = light->type == GLINT_LIGHT_DIRECTIONAL;
     BeamBatch batch;
     batch.count = 0;
-    for (int i = 0; i < stage->scratch->point_count; i++) {
+    for (int i = 0; i < stage->scratch->points.count; i++) {
         if (i % 16 == 0 && gi_stage_stopped(stage)) return;
         Beam beam;
         bool any = directional ? directional_beam(stage, light, i, &beam)
@@ -264,7 +252,7 @@ static void add_beams(const GiStage *stage, size_t index) {
 static void add_sky(const GiStage *stage) {
     BeamBatch batch;
     batch.count = 0;
-    for (int i = 0; i < stage->scratch->point_count; i++) {
+    for (int i = 0; i < stage->scratch->points.count; i++) {
         if (i % 16 == 0 && gi_stage_stopped(stage)) return;
         Beam beam;
         if (sky_beam(stage, i, &beam)) add_beam(stage, i, &beam, &batch);
@@ -293,5 +281,5 @@ void gi_lights_add(const GiStage *stage) {
         if (gi_stage_draws(stage, (int)i)) add_light(stage, i);
     }
     if (stage->world->sky_lights && gi_stage_draws(stage, -1)) add_sky(stage);
-    stage->scratch->point_count = stage->scratch->segment_count = 0;
+    stage->scratch->points.count = stage->scratch->segment_count = 0;
 }

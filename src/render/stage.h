@@ -23,9 +23,8 @@ enum {
 
 /* What a point is beside its numbers. */
 typedef struct GiSpot {
-    uint32_t pixel, shader;
-    uint32_t skip, skip_instance; /* what shadow rays from here do not meet, or GI_SHAPE_NONE */
-    uint32_t level;               /* of the ray that met it */
+    uint32_t shader;
+    uint32_t level; /* of the ray that met it */
 } GiSpot;
 
 /* What the camera rays of a pixel met, where it is asked for: sums over samples. */
@@ -67,8 +66,8 @@ struct GiTileScratch {
     GiVec diffuse[GI_POINT_ROOM]; /* of points whose shader has a texture */
     GiSegment segments[GI_POINT_LIMIT];
     GiLit lit;
-    bool arrives[GI_POINT_LIMIT];                      /* of the lit */
     double across[GI_TILE_STRIDE], up[GI_TILE_STRIDE]; /* window coordinates of columns, rows */
+    double a[GI_BUNDLE_SIZE], b[GI_BUNDLE_SIZE];       /* ... of a bundle's rays */
     GiVec color[GI_TILE_PIXELS];                       /* of the sample being drawn */
     GiVec sum[GI_TILE_PIXELS];                         /* of the samples before */
     GiSeen *seen;                                      /* GI_TILE_PIXELS, or null */
@@ -77,8 +76,9 @@ struct GiTileScratch {
     GI_ARRAY(GiFlightRange) ranges;
     uint32_t *head; /* for each shader, while points are sorted: the first of its rays */
     size_t shader_count;
-    int point_count, segment_count;
+    int segment_count;
     bool weighted; /* factors are in use */
+    bool shared;   /* points may have a pixel in common */
     bool out_of_memory;
 };
 
@@ -142,8 +142,8 @@ static inline double gi_stage_radiance(const GiShading *at) {
 
 /* ---- surface.c */
 
-/* The rays of the bundle: pixels[i] is where ray i began. */
-void gi_surface_bundle(const GiStage *stage, const uint32_t *pixels);
+/* The rays of the bundle. */
+void gi_surface_bundle(const GiStage *stage);
 
 /* A ray under way, with what it met; null: nothing. */
 void gi_surface_flight(const GiStage *stage, const GiFlight *flight, const GiTraceHit *hit);

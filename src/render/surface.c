@@ -20,23 +20,27 @@ static GiVec white(void) { return gi_vec(1, 1, 1); }
 static void begin_weights(GiTileScratch *scratch) {
     if (scratch->weighted) return;
     scratch->weighted = true;
-    for (int i = 0; i < scratch->point_count; i++) scratch->factors[i] = white();
+    for (int i = 0; i < scratch->points.count; i++) scratch->factors[i] = white();
 }
 
-/* Writes the point after the last one, but for its spot. */
-static inline void store_point(GiTileScratch *scratch, const GiSurfacePoint *at, GiVec direction) {
-    int i = scratch->point_count++;
+/* What else there is to know of a point. */
+typedef struct Place {
+    uint32_t pixel, skip, skip_instance; /* as in GiPoints */
+    GiSpot spot;
+} Place;
+
+static inline void add_point(
+    GiTileScratch *scratch, const GiSurfacePoint *at, GiVec direction, const Place *place) {
     GiPoints *points = &scratch->points;
+    int i = points->count++;
     points->px[i] = at->point.x, points->py[i] = at->point.y, points->pz[i] = at->point.z;
     points->nx[i] = at->normal.x, points->ny[i] = at->normal.y, points->nz[i] = at->normal.z;
     points->vx[i] = -direction.x, points->vy[i] = -direction.y, points->vz[i] = -direction.z;
     points->error[i] = at->error;
-}
-
-static void add_point(
-    GiTileScratch *scratch, const GiSurfacePoint *at, GiVec direction, const GiSpot *spot) {
-    scratch->spots[scratch->point_count] = *spot;
-    store_point(scratch, at, direction);
+    points->pixel[i] = place->pixel;
+    points->skip[i] = place->skip;
+    points->skip_instance[i] = place->skip_instance;
+    scratch->spots[i] = place->spot;
 }
 
 GiShading gi_surface_shading(const GiStage *stage, int i) {
@@ -61,14 +65,13 @@ static inline uint32_t skip_of(const GiWorld *world, GiShapeRef shape) {
     return gi_shape_kind(own) == GI_SHAPE_SPHERE ? shape.bits : GI_SHAPE_NONE;
 }
 
-/* Goes on with the last segment, or begins another. */
-static inline void extend_segment(GiTileScratch *scratch, uint32_t shader) {
-    int count = scratch->segment_count;
-    if (count == 0 || scratch->segments[count - 1].shader != shader) {
-        scratch->segments[scratch->segment_count++] =
-            (GiSegment){shader, scratch->point_count, scratch->point_count + 1};
+/* The next `count` points have this shader: goes on with the last segment, or begins another. */
+static inline void extend_segment(GiTileScratch *scratch, uint32_t shader, int count) {
+    int last = scratch->segment_count - 1, begin = scratch->points.count;
+    if (last >= 0 && scratch->segments[last].shader == shader) {
+        scratch->segments[last].end = begin + count;
     } else {
-        scratch->segments[count - 1].end = scratch->point_count + 1;
+        scratch->segments[scratch->segment_count++] = (GiSegment){shader, begin, begin + count};
     }
 }
 
@@ -237,7 +240,7 @@ static GiVec texture_color(const GiWorld *world, const Met *met, GiVec point, ui
 
 /* A surface that light sources cannot be seen on alone: it mirrors, refracts, or has a texture. */
 static void meet_layers(const GiStage *stage, const Met *met, const GiSurfacePoint *at,
-    const GiShader *shader, GiSpot spot) {
+    const GiShader *shader, Place place) {
     const GiWorld *world = stage->world;
     GiTileScratch *scratch = stage->scratch;
     const GiScene *scene = world->scene;
@@ -260,16 +263,17 @@ static void meet_layers(const GiStage *stage, const Met *met, const GiSurfacePoi
     }
     if (local->shader == NULL) return;
     begin_weights(scratch);
-    spot.shader = (uint32_t)(local->shader - scene->shaders.data);
-    scratch->factors[scratch->point_count] = gi_multiply(met->factor, scatter.local_factor);
-    scratch->diffuse[scratch->point_count] = local->diffuse;
+    place.spot.shader = (uint32_t)(local->shader - scene->shaders.data);
+    int i = scratch->points.count;
+    scratch->factors[i] = gi_multiply(met->factor, scatter.local_factor);
+    scratch->diffuse[i] = local->diffuse;
     if (local->shader != shader) {
         GiVec shine = shine_of(stage, local->shader, at->normal);
         GiVec *color = &scratch->color[met->pixel];
-        *color = gi_add(*color, gi_multiply(scratch->factors[scratch->point_count], shine));
+        *color = gi_add(*color, gi_multiply(scratch->factors[i], shine));
     }
-    extend_segment(scratch, spot.shader);
-    add_point(scratch, at, met->direction, &spot);
+    extend_segment(scratch, place.spot.shader, 1);
+    add_point(scratch, at, met->direction, &place);
 }
 
 /* Whether points of the shader are only lit, and nothing goes on from them. */
@@ -305,10 +309,10 @@ static void note_seen(
     }
 }
 
-static Met met_of_bundle(const GiBundle *bundle, int i, uint32_t pixel) {
+static Met met_of_bundle(const GiBundle *bundle, uint32_t i) {
     return (Met){{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
         {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, {1, 1, 1}, bundle->t[i], {1, 1, false},
-        {bundle->shape[i]}, bundle->instance[i], pixel};
+        {bundle->shape[i]}, bundle->instance[i], bundle->pixel[i]};
 }
 
 /* A camera ray's: its color is set, not added to. */
@@ -317,16 +321,15 @@ static void meet_surface(const GiStage *stage, const Met *met, uint32_t shader_i
     GiTileScratch *scratch = stage->scratch;
     const GiShader *shader = &world->scene->shaders.data[shader_index];
     GiSurfacePoint at = point_of(world, met);
-    GiSpot spot = {met->pixel, shader_index, skip_of(world, met->shape), met->instance, 1};
+    Place place = {met->pixel, skip_of(world, met->shape), met->instance, {shader_index, 1}};
     scratch->color[met->pixel] = shine_of(stage, shader, at.normal);
     if (scratch->seen != NULL) note_seen(stage, met, &at, shader);
-    meet_layers(stage, met, &at, shader, spot);
+    meet_layers(stage, met, &at, shader, place);
 }
 
 /* The same for a surface that is only lit. Most are, so nothing is put together in memory that is
  * not needed. */
-static inline void meet_plain(
-    const GiStage *stage, uint32_t i, uint32_t pixel, uint32_t shader_index) {
+static inline void meet_plain(const GiStage *stage, uint32_t i, uint32_t shader_index) {
     const GiWorld *world = stage->world;
     GiTileScratch *scratch = stage->scratch;
     const GiBundle *bundle = &scratch->bundle;
@@ -336,61 +339,88 @@ static inline void meet_plain(
     GiVec direction = gi_vec(bundle->dx[i], bundle->dy[i], bundle->dz[i]);
     GiSurfacePoint at = gi_shape_point(&world->shapes, shape, bundle->instance[i], origin,
         direction, bundle->t[i], world->rules->cone_geometric);
+    uint32_t pixel = bundle->pixel[i];
     scratch->color[pixel] = shine_of(stage, shader, at.normal);
     if (scratch->seen != NULL) {
-        Met met = met_of_bundle(bundle, (int)i, pixel);
+        Met met = met_of_bundle(bundle, i);
         note_seen(stage, &met, &at, shader);
     }
-    int to = scratch->point_count;
-    if (scratch->weighted) scratch->factors[to] = white();
-    extend_segment(scratch, shader_index);
-    store_point(scratch, &at, direction);
-    GiSpot *spot = &scratch->spots[to];
-    spot->pixel = pixel;
-    spot->shader = shader_index;
-    spot->skip = skip_of(world, shape);
-    spot->skip_instance = bundle->instance[i];
-    spot->level = 1;
+    if (scratch->weighted) scratch->factors[scratch->points.count] = white();
+    extend_segment(scratch, shader_index, 1);
+    const Place place = {pixel, skip_of(world, shape), bundle->instance[i], {shader_index, 1}};
+    add_point(scratch, &at, direction, &place);
+}
+
+/* The same for spheres that do not shine, many at a time. */
+static void meet_spheres(
+    const GiStage *stage, const uint32_t *rays, int count, uint32_t shader_index) {
+    const GiWorld *world = stage->world;
+    GiTileScratch *scratch = stage->scratch;
+    if (count == 0) return;
+    int begin = scratch->points.count;
+    extend_segment(scratch, shader_index, count);
+    world->kernel->spheres(&world->shapes, &scratch->bundle, rays, count,
+        !world->rules->sphere_shadows_itself, &scratch->points);
+    for (int i = begin; i < begin + count; i++) {
+        scratch->spots[i] = (GiSpot){shader_index, 1};
+        if (scratch->weighted) scratch->factors[i] = white();
+    }
+}
+
+/* The rays that met surfaces of one shader: a list that begins with `first`. */
+static void meet_shader(
+    const GiStage *stage, uint32_t shader_index, uint32_t first, const uint32_t *next) {
+    const GiTileScratch *scratch = stage->scratch;
+    const GiBundle *bundle = &scratch->bundle;
+    const GiShader *shader = &stage->world->scene->shaders.data[shader_index];
+    bool plain = is_plain(stage->world, shader);
+    bool dark = plain && shader->type != GLINT_SHADER_RGB_NORMALS && scratch->seen == NULL;
+    uint32_t spheres[GI_BUNDLE_SIZE];
+    int sphere_count = 0;
+    for (uint32_t i = first; i != GI_NONE; i = next[i]) {
+        bool sphere = gi_shape_kind((GiShapeRef){bundle->shape[i]}) == GI_SHAPE_SPHERE &&
+                      bundle->instance[i] == GI_SHAPE_NONE;
+        if (dark && sphere) {
+            spheres[sphere_count++] = i;
+        } else if (plain) {
+            meet_plain(stage, i, shader_index);
+        } else {
+            const Met met = met_of_bundle(bundle, i);
+            meet_surface(stage, &met, shader_index);
+        }
+    }
+    meet_spheres(stage, spheres, sphere_count, shader_index);
 }
 
 /* Points of one shader come to stand side by side, so that kernels can shade many at a time. The
  * order among a bundle's points does not matter, as each belongs to another pixel. */
-void gi_surface_bundle(const GiStage *stage, const uint32_t *pixels) {
+void gi_surface_bundle(const GiStage *stage) {
     const GiWorld *world = stage->world;
     GiTileScratch *scratch = stage->scratch;
     const GiBundle *bundle = &scratch->bundle;
     uint32_t next[GI_BUNDLE_SIZE], shaders[GI_BUNDLE_SIZE];
     int shader_count = 0;
-    for (int i = bundle->count - 1; i >= 0; i--) {
+    for (uint32_t i = (uint32_t)bundle->count; i-- > 0;) {
         GiShapeRef shape = {bundle->shape[i]};
         if (shape.bits == GI_SHAPE_NONE) {
             GiVec direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]};
-            scratch->color[pixels[i]] = background(stage, NULL, direction);
+            scratch->color[bundle->pixel[i]] = background(stage, NULL, direction);
             continue;
         }
         if (gi_shape_kind(shape) == GI_SHAPE_RECTANGLE) {
-            Met met = met_of_bundle(bundle, i, pixels[i]);
-            scratch->color[pixels[i]] = rectangle_emission(stage, NULL, &met);
+            Met met = met_of_bundle(bundle, i);
+            scratch->color[met.pixel] = rectangle_emission(stage, NULL, &met);
             continue;
         }
         uint32_t shader = gi_shape_info(&world->shapes, shape, bundle->instance[i])->shader;
         uint32_t *head = &scratch->head[shader];
         if (*head == GI_NONE) shaders[shader_count++] = shader;
         next[i] = *head;
-        *head = (uint32_t)i;
+        *head = i;
     }
     for (int k = 0; k < shader_count; k++) {
-        uint32_t *head = &scratch->head[shaders[k]];
-        bool plain = is_plain(world, &world->scene->shaders.data[shaders[k]]);
-        for (uint32_t i = *head; i != GI_NONE; i = next[i]) {
-            if (plain) {
-                meet_plain(stage, i, pixels[i], shaders[k]);
-            } else {
-                const Met met = met_of_bundle(bundle, (int)i, pixels[i]);
-                meet_surface(stage, &met, shaders[k]);
-            }
-        }
-        *head = GI_NONE;
+        meet_shader(stage, shaders[k], scratch->head[shaders[k]], next);
+        scratch->head[shaders[k]] = GI_NONE;
     }
 }
 
@@ -418,6 +448,7 @@ void gi_surface_flight(const GiStage *stage, const GiFlight *flight, const GiTra
     GiSurfacePoint at = point_of(world, &met);
     GiVec shine = shine_of(stage, shader, at.normal);
     *color = gi_add(*color, gi_multiply(flight->factor, shine));
-    GiSpot spot = {flight->pixel, index, skip_of(world, hit->shape), hit->instance, flight->level};
-    meet_layers(stage, &met, &at, shader, spot);
+    Place place = {
+        flight->pixel, skip_of(world, hit->shape), hit->instance, {index, flight->level}};
+    meet_layers(stage, &met, &at, shader, place);
 }

@@ -22,7 +22,7 @@ GiTileScratch *gi_tile_scratch_create(const GiWorld *world, const GiRenderTarget
     memset(&scratch->flights, 0, sizeof scratch->flights);
     memset(&scratch->ranges, 0, sizeof scratch->ranges);
     scratch->shader_count = shader_count;
-    scratch->point_count = scratch->segment_count = 0;
+    scratch->points.count = scratch->segment_count = 0;
     scratch->weighted = scratch->out_of_memory = false;
     scratch->head = gi_memory_allocate(memory, shader_count * sizeof *scratch->head);
     scratch->seen = sees ? gi_memory_allocate(memory, SEEN_SIZE) : NULL;
@@ -92,41 +92,47 @@ static void trace_apart(const GiStage *stage) {
     }
 }
 
-/* One bundle: the pixels of a block, packet by packet. */
-static void trace_block(const GiStage *stage, const Extent *extent, int block_x, int block_y) {
+static inline int minimum(int a, int b) { return a < b ? a : b; }
+
+/* Fills the bundle with the rays of a block's pixels, packet by packet. */
+static void set_rays(const GiStage *stage, const Extent *extent, int block_x, int block_y) {
     const GiWorld *world = stage->world;
     GiTileScratch *scratch = stage->scratch;
     GiBundle *bundle = &scratch->bundle;
-    uint32_t pixels[GI_BUNDLE_SIZE];
     int count = 0;
     for (int packet = 0; packet < GI_PACKET_COUNT; packet++) {
         int packet_x = block_x + packet % PACKETS_ACROSS * PACKET_SIDE;
         int packet_y = block_y + packet / PACKETS_ACROSS * PACKET_SIDE;
-        for (int i = 0; i < GI_PACKET_SIZE; i++) {
-            int x = packet_x + i % PACKET_SIDE, y = packet_y + i / PACKET_SIDE;
-            if (x >= extent->width || y >= extent->height) continue;
-            GiVec origin, direction;
-            gi_view_ray(&world->view, scratch->across[x], scratch->up[y], &origin, &direction);
-            bundle->ox[count] = origin.x, bundle->oy[count] = origin.y,
-            bundle->oz[count] = origin.z;
-            bundle->dx[count] = direction.x, bundle->dy[count] = direction.y;
-            bundle->dz[count] = direction.z;
-            bundle->t_min[count] = world->eye_error;
-            bundle->t_max[count] = INFINITY;
-            bundle->skip[count] = bundle->skip_instance[count] = GI_SHAPE_NONE;
-            pixels[count++] = (uint32_t)(y * STRIDE + x);
+        int end_x = minimum(packet_x + PACKET_SIDE, extent->width);
+        int end_y = minimum(packet_y + PACKET_SIDE, extent->height);
+        for (int y = packet_y; y < end_y; y++) {
+            for (int x = packet_x; x < end_x; x++) {
+                scratch->a[count] = scratch->across[x];
+                scratch->b[count] = scratch->up[y];
+                bundle->pixel[count++] = (uint32_t)(y * STRIDE + x);
+            }
         }
     }
-    if (count == 0) return;
     bundle->count = count;
     bundle->apex = world->view.eye;
     bundle->side = world->view.across;
+    world->kernel->view(&world->view, scratch->a, scratch->b, bundle);
+    for (int i = 0; i < count; i++) {
+        bundle->t_min[i] = world->eye_error;
+        bundle->t_max[i] = INFINITY;
+        bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
+    }
+}
+
+static void trace_block(const GiStage *stage, const Extent *extent, int block_x, int block_y) {
+    const GiWorld *world = stage->world;
+    set_rays(stage, extent, block_x, block_y);
     if (world->view.parallel) {
         trace_apart(stage);
     } else {
-        world->kernel->bundle_closest(&world->trace, bundle);
+        world->kernel->bundle_closest(&world->trace, &stage->scratch->bundle);
     }
-    gi_surface_bundle(stage, pixels);
+    gi_surface_bundle(stage);
 }
 
 /* ---------------------------------------------------------------- the tile */
@@ -135,8 +141,9 @@ static void trace_block(const GiStage *stage, const Extent *extent, int block_x,
 static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Extent *extent,
     double offset_x, double offset_y) {
     GiTileScratch *scratch = stage->scratch;
-    scratch->point_count = scratch->segment_count = 0;
-    scratch->weighted = false;
+    scratch->points.count = scratch->segment_count = 0;
+    scratch->weighted = scratch->shared = false;
+    memset(scratch->color, 0, (size_t)(extent->height * STRIDE) * sizeof *scratch->color);
     for (int x = 0; x < extent->width; x++) {
         scratch->across[x] = (extent->x + x + offset_x) / area->width;
     }
@@ -156,11 +163,11 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Ex
 }
 
 static void store_color(
-    const GiTileScratch *scratch, int row, int width, int samples, double exposure, float *to) {
+    const GiVec *sum, int row, int width, int samples, double exposure, float *to) {
     for (int i = row * STRIDE; i < row * STRIDE + width; i++) {
-        *to++ = (float)(scratch->sum[i].x / samples * exposure);
-        *to++ = (float)(scratch->sum[i].y / samples * exposure);
-        *to++ = (float)(scratch->sum[i].z / samples * exposure);
+        *to++ = (float)(sum[i].x / samples * exposure);
+        *to++ = (float)(sum[i].y / samples * exposure);
+        *to++ = (float)(sum[i].z / samples * exposure);
     }
 }
 
@@ -191,12 +198,9 @@ static int grid_of(int samples) {
 }
 
 static void clear(const Extent *extent, GiTileScratch *scratch) {
-    for (int row = 0; row < extent->height; row++) {
-        for (int i = row * STRIDE; i < row * STRIDE + extent->width; i++) {
-            scratch->sum[i] = gi_vec(0, 0, 0);
-            if (scratch->seen != NULL) memset(&scratch->seen[i], 0, sizeof scratch->seen[i]);
-        }
-    }
+    size_t count = (size_t)(extent->height * STRIDE);
+    memset(scratch->sum, 0, count * sizeof *scratch->sum);
+    if (scratch->seen != NULL) memset(scratch->seen, 0, count * sizeof *scratch->seen);
 }
 
 static void add_sample(const Extent *extent, GiTileScratch *scratch) {
@@ -218,17 +222,18 @@ bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
     scratch->bundle.stop = ask;
     scratch->bundle.stop_context = control;
     int n = grid_of(target->samples);
-    clear(&extent, scratch);
+    if (n > 1 || scratch->seen != NULL) clear(&extent, scratch);
     for (int sample = 0; sample < n * n; sample++) {
         stage.sample = (uint32_t)sample;
         draw_sample(&stage, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n);
         if (stopped(control)) return false;
-        add_sample(&extent, scratch);
+        if (n > 1) add_sample(&extent, scratch);
     }
+    const GiVec *sum = n > 1 ? scratch->sum : scratch->color;
     double exposure = world->scene->exposure > 0 ? world->scene->exposure : 1;
     for (int row = 0; row < extent.height; row++) {
         size_t at = (size_t)(y + row) * (size_t)area->crop_width + (size_t)x;
-        store_color(scratch, row, extent.width, n * n, exposure, target->color + 3 * at);
+        store_color(sum, row, extent.width, n * n, exposure, target->color + 3 * at);
         if (scratch->seen == NULL) continue;
         store_seen(scratch->seen + row * STRIDE, extent.width, n * n, at, target);
     }

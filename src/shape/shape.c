@@ -132,9 +132,15 @@ GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref, uint32_t instance)
 
 /* ---------------------------------------------------------------- point and normal */
 
-/* The normal to shade with is that of the surface. */
+/* The normal to shade with is that of the surface. In what follows error is the size of the numbers
+ * beside the point's own. */
 static GiSurfacePoint facing(GiVec point, GiVec normal, double error) {
     return (GiSurfacePoint){point, normal, normal, error};
+}
+
+static GiSurfacePoint sphere_point(const GiSphere *sphere, GiVec p) {
+    GiVec normal = gi_normalize(gi_sub(p, sphere->center));
+    return facing(gi_along(sphere->center, normal, sphere->radius), normal, sphere->radius);
 }
 
 /* The face is the one whose plane the ray crosses at t: the same operations as in the test give
@@ -237,12 +243,11 @@ static GiSurfacePoint triangle_point(
     return at;
 }
 
-/* error: the size of the numbers beside the point's own. */
 static GiSurfacePoint unplaced_point(const GiShapes *shapes, GiShapeRef ref, GiVec origin,
     GiVec direction, double t, bool second_nappe_geometric) {
     uint32_t i = gi_shape_index(ref);
     GiVec p = gi_along(origin, direction, t);
-    if (gi_shape_kind(ref) == GI_SHAPE_SPHERE) return gi_sphere_point(&shapes->spheres[i], p);
+    if (gi_shape_kind(ref) == GI_SHAPE_SPHERE) return sphere_point(&shapes->spheres[i], p);
     if (gi_shape_kind(ref) == GI_SHAPE_TRIANGLE) {
         return triangle_point(shapes, i, origin, direction);
     }
@@ -304,7 +309,7 @@ static int transforms_of(
     return count;
 }
 
-GiSurfacePoint gi_shape_point_any(const GiShapes *shapes, GiShapeRef ref, uint32_t instance,
+GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref, uint32_t instance,
     GiVec origin, GiVec direction, double t, bool second_nappe_geometric) {
     const GiTransform *transforms[2];
     int count = transforms_of(shapes, ref, instance, transforms);

@@ -208,33 +208,13 @@ typedef struct GiSurfacePoint {
     double error;
 } GiSurfacePoint;
 
-/* Here error is the size of the numbers beside the point's own. */
-static inline GiSurfacePoint gi_sphere_point(const GiSphere *sphere, GiVec p) {
-    GiVec normal = gi_normalize(gi_sub(p, sphere->center));
-    return (GiSurfacePoint){
-        gi_along(sphere->center, normal, sphere->radius), normal, normal, sphere->radius};
-}
-
 /* 2048 roundings. A point on a surface and the test of a ray from it take about forty, and where
  * the ray leaves at a slant the error along it is larger by 1 / cosine: 2048 covers all but the
  * last degree, where the light that a wrong hit would take away is next to nothing. */
 #define GI_SURFACE_ERROR 0x1p-42
 
-GiSurfacePoint gi_shape_point_any(const GiShapes *shapes, GiShapeRef ref, uint32_t instance,
+GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref, uint32_t instance,
     GiVec origin, GiVec direction, double t, bool second_nappe_geometric);
-
-/* The same, with the most frequent shape inline. */
-static inline GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref,
-    uint32_t instance, GiVec origin, GiVec direction, double t, bool second_nappe_geometric) {
-    if (gi_shape_kind(ref) != GI_SHAPE_SPHERE || instance != GI_SHAPE_NONE) {
-        return gi_shape_point_any(
-            shapes, ref, instance, origin, direction, t, second_nappe_geometric);
-    }
-    GiSurfacePoint at =
-        gi_sphere_point(&shapes->spheres[gi_shape_index(ref)], gi_along(origin, direction, t));
-    at.error = (at.error + gi_largest(at.point)) * GI_SURFACE_ERROR;
-    return at;
-}
 
 /* Texture coordinates by a sphere's unit normal. */
 void gi_sphere_texcoord(GiVec normal, double uv[2]);

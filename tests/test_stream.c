@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT
+ * What the kernels do to many rays and points at a time against the functions for one: the same
+ * bits for every instruction set and every count. */
+#include "kernel/kernel.h"
+#include "random.h"
+#include "test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { COUNT = 100, SPHERES = 40 };
+
+typedef struct Streams {
+    GiBundle bundle;
+    GiPoints points;
+    GiLit lit;
+} Streams;
+
+static bool same(GiVec a, GiVec b) { return memcmp(&a, &b, sizeof a) == 0; }
+
+static GiVec vec_at(const double *x, const double *y, const double *z, int i) {
+    return gi_vec(x[i], y[i], z[i]);
+}
+
+/* ---------------------------------------------------------------- camera rays */
+
+static void check_view(const GiKernel *kernel, Streams *s, Random *random, bool parallel) {
+    /* Now and then a window so small or large that squares leave the range of double. */
+    const double sizes[] = {1, 1, 1, 1e-150, 1e150};
+    double size = sizes[random_below(random, 5)], a[COUNT + 8], b[COUNT + 8];
+    GiView view = {parallel, random_vec(random, -9, 9), gi_scale(random_vec(random, -1, 1), size),
+        gi_scale(random_vec(random, -1, 1), size), gi_scale(random_vec(random, -1, 1), size)};
+    GiBundle *bundle = &s->bundle;
+    bundle->count = 1 + random_below(random, COUNT);
+    for (int i = 0; i < COUNT; i++) {
+        a[i] = random_real(random, 0, 1);
+        b[i] = random_real(random, 0, 1);
+    }
+    kernel->view(&view, a, b, bundle);
+    for (int i = 0; i < bundle->count; i++) {
+        GiVec origin, direction;
+        gi_view_ray(&view, a[i], b[i], &origin, &direction);
+        CHECK(same(vec_at(bundle->ox, bundle->oy, bundle->oz, i), origin));
+        CHECK(same(vec_at(bundle->dx, bundle->dy, bundle->dz, i), direction));
+    }
+}
+
+/* ---------------------------------------------------------------- points */
+
+static void check_spheres(const GiKernel *kernel, Streams *s, Random *random, bool spared) {
+    GiSphere spheres[SPHERES];
+    for (int i = 0; i < SPHERES; i++) {
+        spheres[i] = (GiSphere){random_vec(random, -5, 5), random_real(random, 0.01, 2)};
+    }
+    const GiShapes shapes = {.spheres = spheres};
+    GiBundle *bundle = &s->bundle;
+    uint32_t rays[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        GiVec o = random_vec(random, -9, 9), d = gi_normalize(random_vec(random, -1, 1));
+        bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
+        bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
+        bundle->t[i] = random_real(random, 0, 20);
+        bundle->shape[i] =
+            gi_shape_ref(GI_SHAPE_SPHERE, (uint32_t)random_below(random, SPHERES)).bits;
+        bundle->pixel[i] = (uint32_t)random_below(random, 1000);
+        rays[i] = (uint32_t)random_below(random, COUNT);
+    }
+    int begin = random_below(random, 20), count = 1 + random_below(random, COUNT);
+    GiPoints *points = &s->points;
+    points->count = begin;
+    kernel->spheres(&shapes, bundle, rays, count, spared, points);
+    CHECK_INT(points->count, begin + count);
+    for (int k = 0; k < count; k++) {
+        int i = begin + k, ray = (int)rays[k];
+        GiVec d = vec_at(bundle->dx, bundle->dy, bundle->dz, ray);
+        GiSurfacePoint at = gi_shape_point(&shapes, (GiShapeRef){bundle->shape[ray]}, GI_SHAPE_NONE,
+            vec_at(bundle->ox, bundle->oy, bundle->oz, ray), d, bundle->t[ray], true);
+        CHECK(same(vec_at(points->px, points->py, points->pz, i), at.point));
+        CHECK(same(vec_at(points->nx, points->ny, points->nz, i), at.normal));
+        CHECK(same(vec_at(points->vx, points->vy, points->vz, i), gi_negate(d)));
+        CHECK(points->error[i] == at.error);
+        CHECK_INT(points->pixel[i], bundle->pixel[ray]);
+        CHECK_INT(points->skip[i], spared ? bundle->shape[ray] : GI_SHAPE_NONE);
+        CHECK_INT(points->skip_instance[i], GI_SHAPE_NONE);
+    }
+}
+
+/* ---------------------------------------------------------------- light */
+
+/* As many lit as wanted, of different points with different pixels. */
+static void fill_lit(Streams *s, Random *random) {
+    GiPoints *points = &s->points;
+    GiLit *lit = &s->lit;
+    lit->count = 1 + random_below(random, COUNT);
+    for (int i = 0; i < 2 * COUNT; i++) {
+        points->px[i] = random_real(random, -5, 5);
+        points->py[i] = random_real(random, -5, 5);
+        points->pz[i] = random_real(random, -5, 5);
+        points->pixel[i] = (uint32_t)(2 * COUNT - 1 - i);
+        points->skip[i] = (uint32_t)random_bits(random);
+        points->skip_instance[i] = (uint32_t)random_bits(random);
+    }
+    for (int k = 0; k < lit->count; k++) {
+        lit->point[k] = (uint32_t)(2 * k + random_below(random, 2));
+        lit->red[k] = random_real(random, 0, 1);
+        lit->green[k] = random_real(random, 0, 1);
+        lit->blue[k] = random_real(random, 0, 1);
+        lit->t_min[k] = random_real(random, 0, 1);
+        lit->arrives[k] = (uint8_t)random_below(random, 2);
+    }
+}
+
+static void check_shadows(const GiKernel *kernel, Streams *s, Random *random) {
+    GiBundle *bundle = &s->bundle;
+    const GiPoints *points = &s->points;
+    const GiLit *lit = &s->lit;
+    uint16_t order[COUNT + 8];
+    for (int i = 0; i < lit->count; i++) order[i] = (uint16_t)random_below(random, lit->count);
+    bundle->count = 1 + random_below(random, lit->count);
+    bundle->apex = random_vec(random, -9, 9);
+    kernel->shadows(points, lit, order, bundle);
+    for (int i = 0; i < bundle->count; i++) {
+        int point = (int)lit->point[order[i]];
+        GiVec p = vec_at(points->px, points->py, points->pz, point);
+        CHECK(same(vec_at(bundle->ox, bundle->oy, bundle->oz, i), p));
+        CHECK(same(vec_at(bundle->dx, bundle->dy, bundle->dz, i), gi_sub(bundle->apex, p)));
+        CHECK(bundle->t_min[i] == lit->t_min[order[i]] && bundle->t_max[i] == 1);
+        CHECK_INT(bundle->skip[i], points->skip[point]);
+        CHECK_INT(bundle->skip_instance[i], points->skip_instance[point]);
+    }
+}
+
+static void check_add(const GiKernel *kernel, Streams *s, Random *random) {
+    GiVec color[2 * COUNT], expected[2 * COUNT];
+    for (int i = 0; i < 2 * COUNT; i++) color[i] = expected[i] = random_vec(random, 0, 1);
+    const GiLit *lit = &s->lit;
+    for (int k = 0; k < lit->count; k++) {
+        GiVec *to = &expected[s->points.pixel[lit->point[k]]];
+        if (lit->arrives[k] != 0) {
+            *to = gi_add(*to, gi_vec(lit->red[k], lit->green[k], lit->blue[k]));
+        }
+    }
+    kernel->add(&s->points, lit, color);
+    CHECK(memcmp(color, expected, sizeof color) == 0);
+}
+
+/* ---------------------------------------------------------------- all kernels */
+
+static void kernels_agree(void) {
+    Streams *s = aligned_alloc(64, (sizeof *s + 63) / 64 * 64);
+    CHECK(s != NULL);
+    if (s == NULL) return;
+    memset(s, 0, sizeof *s);
+    const GiKernel *kernel;
+    for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
+        Random random = {31};
+        for (int i = 0; i < 300; i++) {
+            check_view(kernel, s, &random, i % 2 == 0);
+            check_spheres(kernel, s, &random, i % 2 == 0);
+            fill_lit(s, &random);
+            check_shadows(kernel, s, &random);
+            check_add(kernel, s, &random);
+        }
+    }
+    free(s);
+}
+
+const GiTest tests_stream[] = {TEST(kernels_agree), TEST_END};
