@@ -44,7 +44,7 @@ typedef struct Tile {
     GiBundle *bundle;
     bool any;
     unsigned alive[GI_PACKET_COUNT]; /* bits of rays that still look for something */
-    float a[GI_BUNDLE_SIZE], b[GI_BUNDLE_SIZE], far[GI_BUNDLE_SIZE]; /* the rays as points */
+    float a[GI_BUNDLE_ROOM], b[GI_BUNDLE_ROOM], far[GI_BUNDLE_ROOM]; /* the rays as points */
     uint32_t inverse_known[GI_BUNDLE_SIZE / 32]; /* bits of groups of GI_DOUBLES rays */
     Packets packets;
     Groups groups;

@@ -40,19 +40,20 @@ typedef struct GiTraceHit {
  * instance and t. */
 enum {
     GI_BUNDLE_SIZE = 1024,
+    GI_BUNDLE_ROOM = GI_BUNDLE_SIZE + 16, /* else all arrays would meet in the same cache sets */
     GI_PACKET_SIZE = 16,
     GI_PACKET_COUNT = GI_BUNDLE_SIZE / GI_PACKET_SIZE
 };
 
 typedef struct GiBundle {
-    _Alignas(64) double ox[GI_BUNDLE_SIZE];
-    double oy[GI_BUNDLE_SIZE], oz[GI_BUNDLE_SIZE];
-    double dx[GI_BUNDLE_SIZE], dy[GI_BUNDLE_SIZE], dz[GI_BUNDLE_SIZE];
-    double t_min[GI_BUNDLE_SIZE], t_max[GI_BUNDLE_SIZE];
-    uint32_t skip[GI_BUNDLE_SIZE], skip_instance[GI_BUNDLE_SIZE];
-    double t[GI_BUNDLE_SIZE];
-    uint32_t shape[GI_BUNDLE_SIZE], instance[GI_BUNDLE_SIZE];
-    uint32_t pixel[GI_BUNDLE_SIZE]; /* the caller's, of camera rays */
+    _Alignas(64) double ox[GI_BUNDLE_ROOM];
+    double oy[GI_BUNDLE_ROOM], oz[GI_BUNDLE_ROOM];
+    double dx[GI_BUNDLE_ROOM], dy[GI_BUNDLE_ROOM], dz[GI_BUNDLE_ROOM];
+    double t_min[GI_BUNDLE_ROOM], t_max[GI_BUNDLE_ROOM];
+    uint32_t skip[GI_BUNDLE_ROOM], skip_instance[GI_BUNDLE_ROOM];
+    double t[GI_BUNDLE_ROOM];
+    uint32_t shape[GI_BUNDLE_ROOM], instance[GI_BUNDLE_ROOM];
+    uint32_t pixel[GI_BUNDLE_ROOM]; /* the caller's, of camera rays */
     int count;                      /* 1 to GI_BUNDLE_SIZE */
     GiVec apex;
     GiVec side; /* a direction the packets are aligned with; zero: none known */
@@ -62,8 +63,8 @@ typedef struct GiBundle {
     const void *stop_context;
     /* Filled in by the kernel: 1 / d where needed, 1 / d.d, depth of the direction along the axis.
      */
-    double ix[GI_BUNDLE_SIZE], iy[GI_BUNDLE_SIZE], iz[GI_BUNDLE_SIZE];
-    double inverse_square[GI_BUNDLE_SIZE], depth[GI_BUNDLE_SIZE];
+    double ix[GI_BUNDLE_ROOM], iy[GI_BUNDLE_ROOM], iz[GI_BUNDLE_ROOM];
+    double inverse_square[GI_BUNDLE_ROOM], depth[GI_BUNDLE_ROOM];
 } GiBundle;
 
 typedef struct GiKernel {
