@@ -212,7 +212,8 @@ static void check_point(const Shone *shone, const GiPointLight *light, const GiS
     if (!(square > 0) || gi_vec_is_zero(adds)) return;
     int k = (*next)++;
     CHECK(k < lit->count && lit->point[k] == (uint32_t)i);
-    const double got[4] = {lit->red[k], lit->green[k], lit->blue[k], lit->t_min[k]};
+    CHECK_INT(lit->arrives[i], 0);
+    const double got[4] = {lit->red[i], lit->green[i], lit->blue[i], lit->t_min[i]};
     const double due[4] = {adds.x, adds.y, adds.z, (away > 0 ? away : p->error[i]) * inverse};
     CHECK(memcmp(got, due, sizeof got) == 0);
 }
@@ -240,6 +241,7 @@ static void check_kernel(Shone *shone, Random *random, const GiKernel *kernel) {
     }
     int begin = random_below(random, 20), end = begin + random_below(random, COUNT - begin);
     shone->lit.count = 0;
+    memset(shone->lit.arrives, 1, sizeof shone->lit.arrives);
     kernel->light(p, begin, end, &light, &gloss, &shone->lit);
     int next = 0;
     for (int i = begin; i < end; i++) check_point(shone, &light, &at, i, gloss.away, &next);

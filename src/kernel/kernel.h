@@ -53,7 +53,7 @@ typedef struct GiBundle {
     uint32_t skip[GI_BUNDLE_ROOM], skip_instance[GI_BUNDLE_ROOM];
     double t[GI_BUNDLE_ROOM];
     uint32_t shape[GI_BUNDLE_ROOM], instance[GI_BUNDLE_ROOM];
-    uint32_t pixel[GI_BUNDLE_ROOM]; /* the caller's, of camera rays */
+    uint32_t pixel[GI_BUNDLE_ROOM]; /* of camera rays; of others the caller's */
     int count;                      /* 1 to GI_BUNDLE_SIZE */
     GiVec apex;
     GiVec side; /* a direction the packets are aligned with; zero: none known */
@@ -83,15 +83,17 @@ typedef struct GiKernel {
      * neither placed nor instances'. `spared`: shadow rays do not meet the sphere they start on. */
     void (*spheres)(const GiShapes *shapes, const GiBundle *bundle, const uint32_t *rays, int count,
         bool spared, GiPoints *points);
-    /* Appends to *lit what the light adds to the points begin to end - 1, all of one shader, where
-     * it is not nothing, as shade/shade.h has it to the last bit. */
+    /* What the light adds to the points begin to end - 1, all of one shader, as shade/shade.h has it
+     * to the last bit: into *lit, whose list goes on with those to which it is not nothing. None
+     * arrives as yet. */
     void (*light)(const GiPoints *points, int begin, int end, const GiPointLight *light,
         const GiGloss *gloss, GiLit *lit);
-    /* The shadow rays to bundle->apex of the lit that `order` names, bundle->count of them. */
+    /* The shadow rays to bundle->apex of the bundle->count lit that `order` names; bundle->pixel is
+     * the point. */
     void (*shadows)(
         const GiPoints *points, const GiLit *lit, const uint16_t *order, GiBundle *bundle);
-    /* Adds the lit that arrive to the colors of their points' pixels, all different ones. */
-    void (*add)(const GiPoints *points, const GiLit *lit, GiVec *color);
+    /* Adds what arrives to what the points show. */
+    void (*add)(const GiLit *lit, GiPoints *points);
     void (*regroup_init)(GiRegroup *regroup); /* once */
     /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT. */
     void (*regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z, int count);

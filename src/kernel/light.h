@@ -61,6 +61,7 @@ static inline Wide wide_reflect(const GiGloss *gloss, Wide n, Wide v, Wide l) {
     return color;
 }
 
+/* The last vector reaches beyond `end`, into points whose turn comes later. */
 static void GI_KERNEL(light)(const GiPoints *points, int begin, int end, const GiPointLight *light,
     const GiGloss *gloss, GiLit *lit) {
     int count = lit->count;
@@ -94,10 +95,11 @@ static void GI_KERNEL(light)(const GiPoints *points, int begin, int end, const G
         if (left < GI_DOUBLES) bits &= (1u << left) - 1;
         R away = gloss->away > 0 ? R_OF(gloss->away) : r_load(points->error + i);
         u_append_indices(lit->point + count, bits, (uint32_t)i);
-        r_append(lit->red + count, color.x, bits);
-        r_append(lit->green + count, color.y, bits);
-        r_append(lit->blue + count, color.z, bits);
-        r_append(lit->t_min + count, away * inverse, bits);
+        r_store(lit->red + i, color.x);
+        r_store(lit->green + i, color.y);
+        r_store(lit->blue + i, color.z);
+        r_store(lit->t_min + i, away * inverse);
+        memset(lit->arrives + i, 0, GI_DOUBLES);
         r_append_floats(lit->x + count, l.x, bits);
         r_append_floats(lit->y + count, l.y, bits);
         r_append_floats(lit->z + count, l.z, bits);

@@ -17,6 +17,7 @@ typedef struct GiPoints {
     double nx[GI_POINT_ROOM], ny[GI_POINT_ROOM], nz[GI_POINT_ROOM]; /* unit normal */
     double vx[GI_POINT_ROOM], vy[GI_POINT_ROOM], vz[GI_POINT_ROOM]; /* unit, toward the viewer */
     double error[GI_POINT_ROOM]; /* distance within which a ray may meet its own surface */
+    double red[GI_POINT_ROOM], green[GI_POINT_ROOM], blue[GI_POINT_ROOM]; /* what it shows so far */
     uint32_t pixel[GI_POINT_ROOM];
     /* What shadow rays from here do not meet, or GI_SHAPE_NONE. */
     uint32_t skip[GI_POINT_ROOM], skip_instance[GI_POINT_ROOM];
@@ -40,12 +41,14 @@ typedef struct GiGloss {
     double away;      /* distance from the point at which shadow rays begin; 0: at its error */
 } GiGloss;
 
-/* Shadow rays to one light, and what they let through. */
+/* What one light adds to points, if nothing is in the way. */
 typedef struct GiLit {
-    int count;
-    uint32_t point[GI_POINT_ROOM]; /* index into the points */
+    /* Of every point. */
     double red[GI_POINT_ROOM], green[GI_POINT_ROOM], blue[GI_POINT_ROOM];
-    double t_min[GI_POINT_ROOM];                                /* the light is at t = 1 */
+    double t_min[GI_POINT_ROOM];    /* of the shadow ray; the light is at t = 1 */
+    uint8_t arrives[GI_POINT_ROOM]; /* 1: nothing is in the way */
+    /* Of those points alone to which it adds something. */
+    int count;
+    uint32_t point[GI_POINT_ROOM];
     float x[GI_POINT_ROOM], y[GI_POINT_ROOM], z[GI_POINT_ROOM]; /* unit direction */
-    uint8_t arrives[GI_POINT_ROOM];                             /* 1: nothing is in the way */
 } GiLit;

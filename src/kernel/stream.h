@@ -52,6 +52,9 @@ static void GI_KERNEL(spheres)(const GiShapes *shapes, const GiBundle *bundle, c
         int at = to->count + i;
         u_copy(to->pixel + at, pixel);
         u_fill(to->skip_instance + at, GI_SHAPE_NONE);
+        r_store(to->red + at, R_OF(0));
+        r_store(to->green + at, R_OF(0));
+        r_store(to->blue + at, R_OF(0));
         if (spared) {
             u_copy(to->skip + at, shape);
         } else {
@@ -82,9 +85,10 @@ static void GI_KERNEL(spheres)(const GiShapes *shapes, const GiBundle *bundle, c
 static void GI_KERNEL(shadows)(
     const GiPoints *points, const GiLit *lit, const uint16_t *order, GiBundle *to) {
     for (int i = 0; i < to->count; i += GI_DOUBLES) {
-        uint32_t ray[GI_DOUBLES], point[GI_DOUBLES];
-        stream_load_short(ray, order, i, to->count);
-        u_gather(point, lit->point, ray);
+        uint32_t index[GI_DOUBLES], point[GI_DOUBLES];
+        stream_load_short(index, order, i, to->count);
+        u_gather(point, lit->point, index);
+        u_copy(to->pixel + i, point);
         u_gather(to->skip + i, points->skip, point);
         u_gather(to->skip_instance + i, points->skip_instance, point);
         Wide p = {r_gather(points->px, point, 1), r_gather(points->py, point, 1),
@@ -93,21 +97,21 @@ static void GI_KERNEL(shadows)(
         r_store(to->dx + i, R_OF(to->apex.x) - p.x);
         r_store(to->dy + i, R_OF(to->apex.y) - p.y);
         r_store(to->dz + i, R_OF(to->apex.z) - p.z);
-        r_store(to->t_min + i, r_gather(lit->t_min, ray, 1));
+        r_store(to->t_min + i, r_gather(lit->t_min, point, 1));
         r_store(to->t_max + i, R_OF(1));
     }
 }
 
-static void GI_KERNEL(add)(const GiPoints *points, const GiLit *lit, GiVec *color) {
-    enum { COLOR_STRIDE = sizeof(GiVec) / sizeof(double) };
-    for (int i = 0; i < lit->count; i += GI_DOUBLES) {
-        unsigned bits = u_bits_of(lit->arrives + i);
-        if (lit->count - i < GI_DOUBLES) bits &= (1u << (lit->count - i)) - 1;
-        uint32_t point[GI_DOUBLES], pixel[GI_DOUBLES];
-        stream_load(point, lit->point, i, lit->count);
-        u_gather(pixel, points->pixel, point);
-        r_add_where(&color->x, pixel, COLOR_STRIDE, r_load(lit->red + i), bits);
-        r_add_where(&color->y, pixel, COLOR_STRIDE, r_load(lit->green + i), bits);
-        r_add_where(&color->z, pixel, COLOR_STRIDE, r_load(lit->blue + i), bits);
+static inline void stream_add(double *to, const double *from, M where) {
+    R sum = r_load(to);
+    r_store(to, R_SELECT(where, sum + r_load(from), sum));
+}
+
+static void GI_KERNEL(add)(const GiLit *lit, GiPoints *points) {
+    for (int i = 0; i < points->count; i += GI_DOUBLES) {
+        M arrives = m_from_bytes(lit->arrives + i);
+        stream_add(points->red + i, lit->red + i, arrives);
+        stream_add(points->green + i, lit->green + i, arrives);
+        stream_add(points->blue + i, lit->blue + i, arrives);
     }
 }

@@ -366,18 +366,10 @@ static inline void u_widen(uint32_t *to, const uint16_t *from) {
     __m128i all = _mm_loadu_si128((const __m128i *)(const void *)from);
     _mm256_storeu_si256((__m256i *)(void *)to, _mm256_cvtepu16_epi32(all));
 }
-/* Bits of bytes that are 0 or 1. */
-static inline unsigned u_bits_of(const uint8_t *p) {
-    return (unsigned)_mm_test_epi8_mask(
-        _mm_loadl_epi64((const __m128i *)(const void *)p), _mm_set1_epi8(1));
-}
-/* Adds the lanes whose bits are set to p[index * stride], all different places. */
-static inline void r_add_where(double *p, const uint32_t *index, int stride, R a, unsigned bits) {
-    __m256i all = _mm256_loadu_si256((const __m256i *)(const void *)index);
-    all = _mm256_mullo_epi32(all, _mm256_set1_epi32(stride));
-    __mmask8 mask = (__mmask8)bits;
-    R sum = _mm512_mask_i32gather_pd(a, mask, all, p, 8) + a;
-    _mm512_mask_i32scatter_pd(p, mask, all, sum, 8);
+/* Of bytes that are 0 or 1. */
+static inline M m_from_bytes(const uint8_t *p) {
+    __m128i all = _mm_loadl_epi64((const __m128i *)(const void *)p);
+    return (M)_mm_test_epi8_mask(all, all);
 }
 #elif defined(GI_IS_AVX2)
 enum { GI_DOUBLES = 4 };
@@ -396,6 +388,9 @@ enum { GI_DOUBLES = 4 };
 #define M_NOT(m)           (~(m))
 #define R_ABS(a)           _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
 static inline unsigned m_bits(M m) { return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(m)); }
+static inline M m_from_bytes(const uint8_t *p) {
+    return _mm256_set_epi64x(-(long long)p[3], -(long long)p[2], -(long long)p[1], -(long long)p[0]);
+}
 static inline R r_load(const double *p) { return _mm256_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm256_storeu_pd(p, a); }
 static inline void r_store_floats(float *p, R a) { _mm_storeu_ps(p, _mm256_cvtpd_ps(a)); }
@@ -425,6 +420,9 @@ static inline R r_select(M m, R a, R b) {
         _mm_or_si128(_mm_and_si128(m, M_FROM(a)), _mm_andnot_si128(m, M_FROM(b))));
 }
 static inline unsigned m_bits(M m) { return (unsigned)_mm_movemask_pd(_mm_castsi128_pd(m)); }
+static inline M m_from_bytes(const uint8_t *p) {
+    return _mm_set_epi64x(-(long long)p[1], -(long long)p[0]);
+}
 static inline R r_load(const double *p) { return _mm_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm_storeu_pd(p, a); }
 static inline void r_store_floats(float *p, R a) {
@@ -449,6 +447,7 @@ enum { GI_DOUBLES = 1 };
 #define M_NOT(m)           (!(m))
 #define R_ABS(a)           fabs(a)
 static inline unsigned m_bits(M m) { return (unsigned)m; }
+static inline M m_from_bytes(const uint8_t *p) { return p[0]; }
 static inline R r_load(const double *p) { return *p; }
 static inline void r_store(double *p, R a) { *p = a; }
 static inline void r_store_floats(float *p, R a) { *p = (float)a; }
@@ -497,18 +496,6 @@ static inline void u_gather(uint32_t *to, const uint32_t *p, const uint32_t *ind
 }
 static inline void u_widen(uint32_t *to, const uint16_t *from) {
     for (int i = 0; i < GI_DOUBLES; i++) to[i] = from[i];
-}
-static inline unsigned u_bits_of(const uint8_t *p) {
-    unsigned bits = 0;
-    for (int i = 0; i < GI_DOUBLES; i++) bits |= (unsigned)p[i] << i;
-    return bits;
-}
-static inline void r_add_where(double *p, const uint32_t *index, int stride, R a, unsigned bits) {
-    double lane[GI_DOUBLES];
-    r_store(lane, a);
-    for (int i = 0; i < GI_DOUBLES; i++) {
-        if (bits >> i & 1) p[(size_t)index[i] * (size_t)stride] += lane[i];
-    }
 }
 #endif
 

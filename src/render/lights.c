@@ -5,9 +5,14 @@
 /* What arrives at point i. */
 static void add_point(const GiStage *stage, int i, GiVec light) {
     GiTileScratch *scratch = stage->scratch;
+    GiPoints *points = &scratch->points;
     if (scratch->weighted) light = gi_multiply(scratch->factors[i], light);
-    GiVec *color = &scratch->color[scratch->points.pixel[i]];
-    *color = gi_add(*color, light);
+    if (scratch->shared) {
+        GiVec *color = &scratch->color[points->pixel[i]];
+        *color = gi_add(*color, light);
+    } else {
+        points->red[i] += light.x, points->green[i] += light.y, points->blue[i] += light.z;
+    }
 }
 
 /* ---------------------------------------------------------------- point lights */
@@ -47,6 +52,7 @@ static void light_segment(const GiStage *stage, const GiLight *light, const GiSe
     const GiPoints *points = &scratch->points;
     GiLit *lit = &scratch->lit;
     for (int i = segment->begin; i < segment->end; i++) {
+        lit->arrives[i] = 0;
         GiVec d = gi_sub(light->position, point_at(points, i));
         double square = gi_dot(d, d);
         if (!(square > 0)) continue; /* the light is on the surface */
@@ -57,9 +63,9 @@ static void light_segment(const GiStage *stage, const GiLight *light, const GiSe
         if (gi_vec_is_zero(adds)) continue;
         double away = rules->shadow_distance > 0 ? rules->shadow_distance : points->error[i];
         int k = lit->count++;
+        lit->red[i] = adds.x, lit->green[i] = adds.y, lit->blue[i] = adds.z;
+        lit->t_min[i] = away * inverse;
         lit->point[k] = (uint32_t)i;
-        lit->red[k] = adds.x, lit->green[k] = adds.y, lit->blue[k] = adds.z;
-        lit->t_min[k] = away * inverse;
         lit->x[k] = (float)l.x, lit->y[k] = (float)l.y, lit->z[k] = (float)l.z;
     }
 }
@@ -80,7 +86,7 @@ static void trace_lit(const GiStage *stage, GiVec light) {
         stage->world->kernel->shadows(points, lit, order, bundle);
         stage->world->kernel->bundle_any(&stage->world->trace, bundle);
         for (int i = 0; i < bundle->count; i++) {
-            lit->arrives[order[i]] = bundle->shape[i] == GI_SHAPE_NONE;
+            lit->arrives[bundle->pixel[i]] = bundle->shape[i] == GI_SHAPE_NONE;
         }
     }
 }
@@ -89,12 +95,13 @@ static void add_lit(const GiStage *stage) {
     GiTileScratch *scratch = stage->scratch;
     const GiLit *lit = &scratch->lit;
     if (!scratch->weighted && !scratch->shared) {
-        stage->world->kernel->add(&scratch->points, lit, scratch->color);
+        stage->world->kernel->add(lit, &scratch->points);
         return;
     }
     for (int k = 0; k < lit->count; k++) {
-        if (lit->arrives[k] == 0) continue;
-        add_point(stage, (int)lit->point[k], gi_vec(lit->red[k], lit->green[k], lit->blue[k]));
+        int i = (int)lit->point[k];
+        if (lit->arrives[i] == 0) continue;
+        add_point(stage, i, gi_vec(lit->red[i], lit->green[i], lit->blue[i]));
     }
 }
 
@@ -275,11 +282,21 @@ static void add_light(const GiStage *stage, size_t index) {
     }
 }
 
+/* Of points that do not share their pixels. */
+static void show_points(GiTileScratch *scratch) {
+    const GiPoints *points = &scratch->points;
+    for (int i = 0; i < points->count; i++) {
+        scratch->color[points->pixel[i]] =
+            gi_vec(points->red[i], points->green[i], points->blue[i]);
+    }
+}
+
 void gi_lights_add(const GiStage *stage) {
     const GiScene *scene = stage->world->scene;
     for (size_t i = 0; i < scene->lights.count && !gi_stage_stopped(stage); i++) {
         if (gi_stage_draws(stage, (int)i)) add_light(stage, i);
     }
     if (stage->world->sky_lights && gi_stage_draws(stage, -1)) add_sky(stage);
+    if (!stage->scratch->shared) show_points(stage->scratch);
     stage->scratch->points.count = stage->scratch->segment_count = 0;
 }

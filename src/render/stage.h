@@ -78,7 +78,7 @@ struct GiTileScratch {
     size_t shader_count;
     int segment_count;
     bool weighted; /* factors are in use */
-    bool shared;   /* points may have a pixel in common */
+    bool shared;   /* points may have a pixel in common, so light goes to the pixels at once */
     bool out_of_memory;
 };
 

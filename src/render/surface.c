@@ -37,6 +37,8 @@ static inline void add_point(
     points->nx[i] = at->normal.x, points->ny[i] = at->normal.y, points->nz[i] = at->normal.z;
     points->vx[i] = -direction.x, points->vy[i] = -direction.y, points->vz[i] = -direction.z;
     points->error[i] = at->error;
+    const GiVec *color = &scratch->color[place->pixel];
+    points->red[i] = color->x, points->green[i] = color->y, points->blue[i] = color->z;
     points->pixel[i] = place->pixel;
     points->skip[i] = place->skip;
     points->skip_instance[i] = place->skip_instance;

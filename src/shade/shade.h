@@ -6,8 +6,15 @@
 #include "math/elementary.h"
 #include "shade/bsdf.h"
 
+static inline GiVec gi_shade_normal_color(GiVec normal) {
+    return gi_scale(gi_add(normal, gi_vec(1, 1, 1)), 0.5);
+}
+
 /* What is there without any light. */
-GiVec gi_shade_emit(const GiShader *shader, GiVec normal);
+static inline GiVec gi_shade_emit(const GiShader *shader, GiVec normal) {
+    if (shader->type != GLINT_SHADER_RGB_NORMALS) return gi_vec(0, 0, 0);
+    return gi_shade_normal_color(normal);
+}
 
 /* What lights without a place add: ambient, constant and normal lights. */
 GiVec gi_shade_ambient(const GiShading *at, const GiLight *light);
