@@ -3,12 +3,13 @@
  * bits for every instruction set and every count. */
 #include "kernel/kernel.h"
 #include "random.h"
+#include "shape/hit.h"
 #include "test.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { COUNT = 100, SPHERES = 40 };
+enum { COUNT = 100, SHAPES = 40 };
 
 typedef struct Streams {
     GiBundle bundle;
@@ -47,37 +48,74 @@ static void check_view(const GiKernel *kernel, Streams *s, Random *random, bool 
 
 /* ---------------------------------------------------------------- points */
 
-static void check_spheres(const GiKernel *kernel, Streams *s, Random *random, bool spared) {
-    GiSphere spheres[SPHERES];
-    for (int i = 0; i < SPHERES; i++) {
-        spheres[i] = (GiSphere){random_vec(random, -5, 5), random_real(random, 0.01, 2)};
+typedef struct Solids {
+    GiSphere spheres[SHAPES];
+    GiBox boxes[SHAPES];
+    GiCone cones[SHAPES];
+    GiShapes shapes;
+} Solids;
+
+static void fill_solids(Solids *solids, Random *random) {
+    for (int i = 0; i < SHAPES; i++) {
+        GiVec c = random_vec(random, -5, 5), size = random_vec(random, 0.1, 3);
+        solids->spheres[i] = (GiSphere){c, size.x};
+        solids->boxes[i] = (GiBox){gi_sub(c, size), gi_add(c, size)};
+        /* Cylinders, cones with their apex at an end, and with two nappes. */
+        double slope = random_below(random, 3) ? random_real(random, -2, 2) : 0;
+        double radius = random_below(random, 2) ? fabs(slope) * size.z : size.x;
+        solids->cones[i] = (GiCone){c, radius, slope, size.z};
     }
-    const GiShapes shapes = {.spheres = spheres};
+    solids->shapes =
+        (GiShapes){.spheres = solids->spheres, .boxes = solids->boxes, .cones = solids->cones};
+}
+
+/* A ray that meets the shape, in the bundle's place i. */
+static void put_ray(GiBundle *bundle, Random *random, const Solids *solids, GiShapeRef ref, int i) {
+    for (;;) {
+        GiVec o = random_vec(random, -9, 9), d = random_vec(random, -1, 1);
+        if (random_below(random, 4) == 0) {
+            /* Along an axis, through the middle of the solid. */
+            o = solids->cones[gi_shape_index(ref)].center;
+            o.z -= 9;
+            d = gi_vec(0, 0, 1);
+        }
+        const gi_hit_Ray ray = gi_hit_ray(o.x, o.y, o.z, d.x, d.y, d.z);
+        if (!gi_hit_shape(&solids->shapes, ref, &ray, 0, INFINITY, &bundle->t[i])) continue;
+        bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
+        bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
+        bundle->shape[i] = ref.bits;
+        bundle->pixel[i] = (uint32_t)random_below(random, 1000);
+        return;
+    }
+}
+
+static void check_points(
+    const GiKernel *kernel, Streams *s, Random *random, GiShapeKind kind, bool spared) {
+    Solids solids;
+    fill_solids(&solids, random);
     GiBundle *bundle = &s->bundle;
     uint32_t rays[COUNT];
     for (int i = 0; i < COUNT; i++) {
-        GiVec o = random_vec(random, -9, 9), d = gi_normalize(random_vec(random, -1, 1));
-        bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
-        bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
-        bundle->t[i] = random_real(random, 0, 20);
-        bundle->shape[i] =
-            gi_shape_ref(GI_SHAPE_SPHERE, (uint32_t)random_below(random, SPHERES)).bits;
-        bundle->pixel[i] = (uint32_t)random_below(random, 1000);
+        GiShapeRef ref = gi_shape_ref(kind, (uint32_t)random_below(random, SHAPES));
+        put_ray(bundle, random, &solids, ref, i);
         rays[i] = (uint32_t)random_below(random, COUNT);
     }
     int begin = random_below(random, 20), count = 1 + random_below(random, COUNT);
+    bool geometric = random_below(random, 2) != 0;
     GiPoints *points = &s->points;
     points->count = begin;
-    kernel->spheres(&shapes, bundle, rays, count, spared, points);
+    kernel->points(&solids.shapes, bundle, rays, count, spared, geometric, points);
     CHECK_INT(points->count, begin + count);
     for (int k = 0; k < count; k++) {
         int i = begin + k, ray = (int)rays[k];
         GiVec d = vec_at(bundle->dx, bundle->dy, bundle->dz, ray);
-        GiSurfacePoint at = gi_shape_point(&shapes, (GiShapeRef){bundle->shape[ray]}, GI_SHAPE_NONE,
-            vec_at(bundle->ox, bundle->oy, bundle->oz, ray), d, bundle->t[ray], true);
+        GiSurfacePoint at =
+            gi_shape_point(&solids.shapes, (GiShapeRef){bundle->shape[ray]}, GI_SHAPE_NONE,
+                vec_at(bundle->ox, bundle->oy, bundle->oz, ray), d, bundle->t[ray], geometric);
         CHECK(same(vec_at(points->px, points->py, points->pz, i), at.point));
         CHECK(same(vec_at(points->nx, points->ny, points->nz, i), at.normal));
         CHECK(same(vec_at(points->vx, points->vy, points->vz, i), gi_negate(d)));
+        CHECK(same(vec_at(points->red, points->green, points->blue, i), gi_vec(0, 0, 0)));
         CHECK(points->error[i] == at.error);
         CHECK_INT(points->pixel[i], bundle->pixel[ray]);
         CHECK_INT(points->skip[i], spared ? bundle->shape[ray] : GI_SHAPE_NONE);
@@ -155,7 +193,7 @@ static void kernels_agree(void) {
         Random random = {31};
         for (int i = 0; i < 300; i++) {
             check_view(kernel, s, &random, i % 2 == 0);
-            check_spheres(kernel, s, &random, i % 2 == 0);
+            check_points(kernel, s, &random, (GiShapeKind)(i % 3), i % 2 == 0);
             fill_lit(s, &random);
             check_shadows(kernel, s, &random);
             check_add(kernel, s);

@@ -34,7 +34,7 @@ const GiKernel GI_KERNEL(kernel) = {
     GI_KERNEL(bundle_closest),
     GI_KERNEL(bundle_any),
     GI_KERNEL(view),
-    GI_KERNEL(spheres),
+    GI_KERNEL(points),
     GI_KERNEL(light),
     GI_KERNEL(shadows),
     GI_KERNEL(add),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * What happens to many rays and points between their walks through the tree: places in the picture
- * to rays, hits on spheres to points, points to shadow rays, light to pixels. The same operations
+ * to rays, hits on shapes to points, points to shadow rays, light to pixels. The same operations
  * in the same order as the functions for one, so that the bits are the same. Part of kernel.c. */
 #pragma once
 
@@ -21,6 +21,8 @@ static inline void stream_load_short(uint32_t *to, const uint16_t *from, int i, 
     for (int k = 0; k < GI_DOUBLES; k++) to[k] = from[i + k < end ? i + k : i];
 }
 
+/* ---------------------------------------------------------------- rays */
+
 static void GI_KERNEL(view)(const GiView *view, const double *a, const double *b, GiBundle *to) {
     const GiVec *across = &view->across, *up = &view->up, *center = &view->center;
     for (int i = 0; i < to->count; i += GI_DOUBLES) {
@@ -39,48 +41,144 @@ static void GI_KERNEL(view)(const GiView *view, const double *a, const double *b
     }
 }
 
-/* As gi_shape_point. */
-static void GI_KERNEL(spheres)(const GiShapes *shapes, const GiBundle *bundle, const uint32_t *rays,
-    int count, bool spared, GiPoints *to) {
-    enum { SPHERE_STRIDE = sizeof(GiSphere) / sizeof(double) };
-    const GiSphere *spheres = shapes->spheres;
+/* ---------------------------------------------------------------- points */
+
+/* Rays with the shapes they met, by index, and where: in the end moved onto the surface. */
+typedef struct Hits {
+    Wide o, d, p, n;
+    R t, size; /* size: of the numbers beside the point's own */
+    uint32_t shape[GI_DOUBLES];
+} Hits;
+
+#define STREAM_GATHER(member) r_gather(&(member), hits->shape, stride)
+
+/* As sphere_point of shape.c. */
+static inline void hits_spheres(Hits *hits, const GiSphere *first) {
+    enum { stride = sizeof *first / sizeof(double) };
+    Wide c = {STREAM_GATHER(first->center.x), STREAM_GATHER(first->center.y),
+        STREAM_GATHER(first->center.z)};
+    R radius = STREAM_GATHER(first->radius);
+    hits->n = wide_normalize((Wide){hits->p.x - c.x, hits->p.y - c.y, hits->p.z - c.z});
+    hits->p = wide_along(c, hits->n, radius);
+    hits->size = radius;
+}
+
+/* One axis of a box: its two planes, and where the ray crosses them. */
+typedef struct Slab {
+    R low, high, inverse, enter, leave;
+} Slab;
+
+static inline Slab slab_of(R low, R high, R o, R d) {
+    Slab slab = {.low = low, .high = high, .inverse = gi_wide_inverse(d)};
+    gi_wide_slab(low, high, o, slab.inverse, &slab.enter, &slab.leave);
+    return slab;
+}
+
+/* Where the point is on a face of this axis: to its plane, with its normal. */
+static inline void slab_face(const Slab *slab, M on, M entering, R *p, R *n) {
+    R zero = R_OF(0);
+    M high = R_SELECT_M(entering, R_LESS(slab->inverse, zero), R_LESS(zero, slab->inverse));
+    *p = R_SELECT(on, R_SELECT(high, slab->high, slab->low), *p);
+    *n = R_SELECT(on, R_SELECT(high, R_OF(1), R_OF(-1)), zero);
+}
+
+/* As box_point. */
+static inline void hits_boxes(Hits *hits, const GiBox *first) {
+    enum { stride = sizeof *first / sizeof(double) };
+    Slab x =
+        slab_of(STREAM_GATHER(first->low.x), STREAM_GATHER(first->high.x), hits->o.x, hits->d.x);
+    Slab y =
+        slab_of(STREAM_GATHER(first->low.y), STREAM_GATHER(first->high.y), hits->o.y, hits->d.y);
+    Slab z =
+        slab_of(STREAM_GATHER(first->low.z), STREAM_GATHER(first->high.z), hits->o.z, hits->d.z);
+    M entering = R_EQUAL(R_MAX(x.enter, R_MAX(y.enter, z.enter)), hits->t);
+    M on_x = R_EQUAL(R_SELECT(entering, x.enter, x.leave), hits->t);
+    M on_y = R_EQUAL(R_SELECT(entering, y.enter, y.leave), hits->t) & M_NOT(on_x);
+    slab_face(&x, on_x, entering, &hits->p.x, &hits->n.x);
+    slab_face(&y, on_y, entering, &hits->p.y, &hits->n.y);
+    slab_face(&z, M_NOT(on_x) & M_NOT(on_y), entering, &hits->p.z, &hits->n.z);
+    hits->size = R_OF(0);
+}
+
+/* As cone_point. */
+static inline void hits_cones(Hits *hits, const GiCone *first, bool second_nappe_geometric) {
+    enum { stride = sizeof *first / sizeof(double) };
+    const gi_wide_ConeLanes cone = {STREAM_GATHER(first->center.x), STREAM_GATHER(first->center.y),
+        STREAM_GATHER(first->center.z), STREAM_GATHER(first->radius), STREAM_GATHER(first->slope)};
+    R half = STREAM_GATHER(first->half_height), zero = R_OF(0), one = R_OF(1);
+    const Wide *o = &hits->o, *d = &hits->d;
+    const gi_wide_Ray ray = gi_wide_ray(o->x, o->y, o->z, d->x, d->y, d->z);
+    gi_wide_Wall wall = gi_wide_wall_of(&cone, &ray);
+    R enter, leave;
+    gi_wide_slab(-half, half, wall.oz, ray.iz, &enter, &leave);
+    M entering = R_EQUAL(enter + wall.shift, hits->t);
+    M on_cap = entering | R_EQUAL(leave + wall.shift, hits->t);
+    M falling = R_LESS(ray.iz, zero);
+    M top = (entering & falling) | (M_NOT(entering) & M_NOT(falling));
+    R x = hits->p.x - cone.x, y = hits->p.y - cone.y, z = hits->p.z - cone.z;
+    R distance = R_SQRT(x * x + y * y);
+    R radius = cone.radius + cone.slope * z, tilt = -cone.slope;
+    if (second_nappe_geometric) tilt = R_SELECT(R_LESS(radius, zero), -tilt, tilt);
+    M on_axis = R_EQUAL(distance, zero) & M_NOT(on_cap), on_wall = M_NOT(on_cap) & M_NOT(on_axis);
+    R part = R_ABS(radius) / distance;
+    Wide n = wide_normalize((Wide){x / distance, y / distance, tilt});
+    R along = R_SELECT(R_SELECT_M(on_cap, top, R_LESS(zero, tilt)), one, -one);
+    hits->n = (Wide){
+        R_SELECT(on_wall, n.x, zero), R_SELECT(on_wall, n.y, zero), R_SELECT(on_wall, n.z, along)};
+    hits->p.x = R_SELECT(on_wall, cone.x + x * part, hits->p.x);
+    hits->p.y = R_SELECT(on_wall, cone.y + y * part, hits->p.y);
+    hits->p.z = R_SELECT(on_cap, cone.z + R_SELECT(top, half, -half), hits->p.z);
+    hits->size = half + cone.radius;
+}
+
+#undef STREAM_GATHER
+
+static inline void hits_store(const Hits *hits, GiPoints *to, int at) {
+    Wide p = hits->p, n = hits->n, d = hits->d;
+    R largest = R_MAX(R_ABS(p.x), R_MAX(R_ABS(p.y), R_ABS(p.z))), zero = R_OF(0);
+    r_store(to->error + at, (hits->size + largest) * R_OF(GI_SURFACE_ERROR));
+    r_store(to->px + at, p.x), r_store(to->py + at, p.y), r_store(to->pz + at, p.z);
+    r_store(to->nx + at, n.x), r_store(to->ny + at, n.y), r_store(to->nz + at, n.z);
+    r_store(to->vx + at, -d.x), r_store(to->vy + at, -d.y), r_store(to->vz + at, -d.z);
+    r_store(to->red + at, zero), r_store(to->green + at, zero), r_store(to->blue + at, zero);
+}
+
+static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, const uint32_t *rays,
+    int count, bool spared, bool second_nappe_geometric, GiPoints *to) {
+    GiShapeKind kind = gi_shape_kind((GiShapeRef){bundle->shape[rays[0]]});
     for (int i = 0; i < count; i += GI_DOUBLES) {
         uint32_t ray[GI_DOUBLES], shape[GI_DOUBLES], pixel[GI_DOUBLES];
         stream_load(ray, rays, i, count);
         u_gather(shape, bundle->shape, ray);
         u_gather(pixel, bundle->pixel, ray);
+        Hits hits = {.o = {r_gather(bundle->ox, ray, 1), r_gather(bundle->oy, ray, 1),
+                         r_gather(bundle->oz, ray, 1)},
+            .d = {r_gather(bundle->dx, ray, 1), r_gather(bundle->dy, ray, 1),
+                r_gather(bundle->dz, ray, 1)},
+            .t = r_gather(bundle->t, ray, 1)};
+        hits.p = wide_along(hits.o, hits.d, hits.t);
+        for (int k = 0; k < GI_DOUBLES; k++) {
+            hits.shape[k] = gi_shape_index((GiShapeRef){shape[k]});
+        }
+        switch (kind) {
+        case GI_SHAPE_SPHERE: hits_spheres(&hits, shapes->spheres); break;
+        case GI_SHAPE_BOX: hits_boxes(&hits, shapes->boxes); break;
+        default: hits_cones(&hits, shapes->cones, second_nappe_geometric); break;
+        }
         int at = to->count + i;
+        hits_store(&hits, to, at);
         u_copy(to->pixel + at, pixel);
         u_fill(to->skip_instance + at, GI_SHAPE_NONE);
-        r_store(to->red + at, R_OF(0));
-        r_store(to->green + at, R_OF(0));
-        r_store(to->blue + at, R_OF(0));
         if (spared) {
             u_copy(to->skip + at, shape);
         } else {
             u_fill(to->skip + at, GI_SHAPE_NONE);
         }
-        /* The kind of spheres is 0, so the bits of a shape are its index. */
-        Wide c = {r_gather(&spheres->center.x, shape, SPHERE_STRIDE),
-            r_gather(&spheres->center.y, shape, SPHERE_STRIDE),
-            r_gather(&spheres->center.z, shape, SPHERE_STRIDE)};
-        R radius = r_gather(&spheres->radius, shape, SPHERE_STRIDE);
-        R t = r_gather(bundle->t, ray, 1);
-        Wide o = {r_gather(bundle->ox, ray, 1), r_gather(bundle->oy, ray, 1),
-            r_gather(bundle->oz, ray, 1)};
-        Wide d = {r_gather(bundle->dx, ray, 1), r_gather(bundle->dy, ray, 1),
-            r_gather(bundle->dz, ray, 1)};
-        Wide p = wide_along(o, d, t);
-        Wide n = wide_normalize((Wide){p.x - c.x, p.y - c.y, p.z - c.z});
-        p = wide_along(c, n, radius);
-        R largest = R_MAX(R_ABS(p.x), R_MAX(R_ABS(p.y), R_ABS(p.z)));
-        r_store(to->error + at, (radius + largest) * R_OF(GI_SURFACE_ERROR));
-        r_store(to->px + at, p.x), r_store(to->py + at, p.y), r_store(to->pz + at, p.z);
-        r_store(to->nx + at, n.x), r_store(to->ny + at, n.y), r_store(to->nz + at, n.z);
-        r_store(to->vx + at, -d.x), r_store(to->vy + at, -d.y), r_store(to->vz + at, -d.z);
     }
     to->count += count;
 }
+
+/* ---------------------------------------------------------------- light */
 
 static void GI_KERNEL(shadows)(
     const GiPoints *points, const GiLit *lit, const uint16_t *order, GiBundle *to) {

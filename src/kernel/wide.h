@@ -389,7 +389,8 @@ enum { GI_DOUBLES = 4 };
 #define R_ABS(a)           _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
 static inline unsigned m_bits(M m) { return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(m)); }
 static inline M m_from_bytes(const uint8_t *p) {
-    return _mm256_set_epi64x(-(long long)p[3], -(long long)p[2], -(long long)p[1], -(long long)p[0]);
+    return _mm256_set_epi64x(
+        -(long long)p[3], -(long long)p[2], -(long long)p[1], -(long long)p[0]);
 }
 static inline R r_load(const double *p) { return _mm256_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm256_storeu_pd(p, a); }
@@ -498,6 +499,9 @@ static inline void u_widen(uint32_t *to, const uint16_t *from) {
     for (int i = 0; i < GI_DOUBLES; i++) to[i] = from[i];
 }
 #endif
+
+/* As R_SELECT, of what comparisons give. */
+#define R_SELECT_M(m, a, b) (((m) & (a)) | (M_NOT(m) & (b)))
 
 /* As many numbers as R has lanes. */
 static inline void u_copy(uint32_t *to, const uint32_t *from) {

@@ -353,16 +353,18 @@ static inline void meet_plain(const GiStage *stage, uint32_t i, uint32_t shader_
     add_point(scratch, &at, direction, &place);
 }
 
-/* The same for spheres that do not shine, many at a time. */
-static void meet_spheres(
+/* The same for surfaces of one kind that do not shine, many at a time. */
+static void meet_dark(
     const GiStage *stage, const uint32_t *rays, int count, uint32_t shader_index) {
     const GiWorld *world = stage->world;
     GiTileScratch *scratch = stage->scratch;
     if (count == 0) return;
     int begin = scratch->points.count;
     extend_segment(scratch, shader_index, count);
-    world->kernel->spheres(&world->shapes, &scratch->bundle, rays, count,
-        !world->rules->sphere_shadows_itself, &scratch->points);
+    bool sphere = gi_shape_kind((GiShapeRef){scratch->bundle.shape[rays[0]]}) == GI_SHAPE_SPHERE;
+    world->kernel->points(&world->shapes, &scratch->bundle, rays, count,
+        sphere && !world->rules->sphere_shadows_itself, world->rules->cone_geometric,
+        &scratch->points);
     for (int i = begin; i < begin + count; i++) {
         scratch->spots[i] = (GiSpot){shader_index, 1};
         if (scratch->weighted) scratch->factors[i] = white();
@@ -372,18 +374,18 @@ static void meet_spheres(
 /* The rays that met surfaces of one shader: a list that begins with `first`. */
 static void meet_shader(
     const GiStage *stage, uint32_t shader_index, uint32_t first, const uint32_t *next) {
+    enum { KINDS = GI_SHAPE_CONE + 1 }; /* that the kernels know: spheres, boxes, cones */
     const GiTileScratch *scratch = stage->scratch;
     const GiBundle *bundle = &scratch->bundle;
     const GiShader *shader = &stage->world->scene->shaders.data[shader_index];
     bool plain = is_plain(stage->world, shader);
     bool dark = plain && shader->type != GLINT_SHADER_RGB_NORMALS && scratch->seen == NULL;
-    uint32_t spheres[GI_BUNDLE_SIZE];
-    int sphere_count = 0;
+    uint32_t rays[KINDS][GI_BUNDLE_SIZE];
+    int count[KINDS] = {0};
     for (uint32_t i = first; i != GI_NONE; i = next[i]) {
-        bool sphere = gi_shape_kind((GiShapeRef){bundle->shape[i]}) == GI_SHAPE_SPHERE &&
-                      bundle->instance[i] == GI_SHAPE_NONE;
-        if (dark && sphere) {
-            spheres[sphere_count++] = i;
+        int kind = (int)gi_shape_kind((GiShapeRef){bundle->shape[i]});
+        if (dark && kind < KINDS && bundle->instance[i] == GI_SHAPE_NONE) {
+            rays[kind][count[kind]++] = i;
         } else if (plain) {
             meet_plain(stage, i, shader_index);
         } else {
@@ -391,7 +393,9 @@ static void meet_shader(
             meet_surface(stage, &met, shader_index);
         }
     }
-    meet_spheres(stage, spheres, sphere_count, shader_index);
+    for (int kind = 0; kind < KINDS; kind++) {
+        meet_dark(stage, rays[kind], count[kind], shader_index);
+    }
 }
 
 /* Points of one shader come to stand side by side, so that kernels can shade many at a time. The

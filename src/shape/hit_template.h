@@ -98,17 +98,22 @@ typedef struct GI_HIT(Wall) {
     M none;      /* nothing of the line is inside */
 } GI_HIT(Wall);
 
-static inline GI_HIT(Wall) GI_HIT(wall)(const GiCone *cone, const GI_HIT(Ray) * ray) {
+/* What of a cone matters to that. */
+typedef struct GI_HIT(ConeLanes) {
+    R x, y, z, radius, slope;
+} GI_HIT(ConeLanes);
+
+static inline GI_HIT(Wall)
+    GI_HIT(wall_of)(const GI_HIT(ConeLanes) * cone, const GI_HIT(Ray) * ray) {
     GI_HIT(Wall) wall;
-    R x = ray->ox - R_OF(cone->center.x), y = ray->oy - R_OF(cone->center.y),
-      z = ray->oz - R_OF(cone->center.z);
+    R x = ray->ox - cone->x, y = ray->oy - cone->y, z = ray->oz - cone->z;
     wall.shift = -(x * ray->dx + y * ray->dy + z * ray->dz) * ray->inverse_square;
     x = x + wall.shift * ray->dx;
     y = y + wall.shift * ray->dy;
     z = z + wall.shift * ray->dz;
     wall.oz = z;
     /* q(t) = (x + t dx)^2 + (y + t dy)^2 - (rho + t drho)^2 = a t^2 + 2 b t + c, negative inside */
-    R rho = R_OF(cone->radius) + R_OF(cone->slope) * z, drho = R_OF(cone->slope) * ray->dz;
+    R rho = cone->radius + cone->slope * z, drho = cone->slope * ray->dz;
     R a = ray->dx * ray->dx + ray->dy * ray->dy - drho * drho;
     R b = x * ray->dx + y * ray->dy - rho * drho;
     R c = x * x + y * y - rho * rho;
@@ -128,6 +133,12 @@ static inline GI_HIT(Wall) GI_HIT(wall)(const GiCone *cone, const GI_HIT(Ray) * 
     wall.near = R_MIN(t0, t1);
     wall.far = R_MAX(t0, t1);
     return wall;
+}
+
+static inline GI_HIT(Wall) GI_HIT(wall)(const GiCone *cone, const GI_HIT(Ray) * ray) {
+    const GI_HIT(ConeLanes) lanes = {R_OF(cone->center.x), R_OF(cone->center.y),
+        R_OF(cone->center.z), R_OF(cone->radius), R_OF(cone->slope)};
+    return GI_HIT(wall_of)(&lanes, ray);
 }
 
 /* The part of one nappe between the heights low and high. */
