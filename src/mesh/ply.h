@@ -65,7 +65,10 @@ typedef struct GiPlyHeader {
 } GiPlyHeader;
 
 /* Bytes of a value of that type. */
-size_t gi_ply_type_size(GiPlyType type);
+static inline size_t gi_ply_type_size(GiPlyType type) {
+    static const unsigned char sizes[] = {1, 1, 2, 2, 4, 4, 4, 8, 0};
+    return sizes[type];
+}
 
 /* Reads the header and checks that it describes a mesh. gi_ply_header_reset must follow, also after
  * a failure. */

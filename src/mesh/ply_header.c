@@ -41,11 +41,6 @@ static bool refuse_word(GiMeshInput *input, const Line *line, int i, const char 
 
 /* ---------------------------------------------------------------- properties */
 
-size_t gi_ply_type_size(GiPlyType type) {
-    static const unsigned char sizes[] = {1, 1, 2, 2, 4, 4, 4, 8, 0};
-    return sizes[type];
-}
-
 static GiPlyType find_type(const Line *line, int i) {
     static const char names[][2][8] = {{"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},
         {"ushort", "uint16"}, {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"},
