@@ -107,7 +107,7 @@ static int64_t cut_integer(const char *p, const char *end) {
     return number;
 }
 
-static bool read_integer_word(Rows *rows, int64_t *value) {
+static inline bool read_integer_word(Rows *rows, int64_t *value) {
     if (!find_word(rows)) return false;
     const char *word = rows->p, *digits = word + (*word == '-');
     uint64_t number = 0;
@@ -298,19 +298,19 @@ static bool refuse_change(Rows *rows) {
 
 static bool read_polygon(Rows *rows, const GiPlyProperty *property, size_t row) {
     uint64_t count;
-    uint32_t first, last, corner;
+    uint32_t first = 0, last = 0, corner;
     if (!read_corner_count(rows, property, row, &count)) return false;
     if (count - 2 > rows->triangle_limit - rows->triangle) return refuse_change(rows);
-    if (!read_corner(rows, property->type, row, &first) ||
-        !read_corner(rows, property->type, row, &last)) {
-        return false;
-    }
-    for (uint64_t i = 2; i < count; i++, last = corner) {
+    for (uint64_t i = 0; i < count; i++) {
         if (!read_corner(rows, property->type, row, &corner)) return false;
-        GiCorners *triangle = &rows->ply->room.corners[rows->triangle++];
-        (*triangle)[0] = first;
-        (*triangle)[1] = last;
-        (*triangle)[2] = corner;
+        if (i == 0) first = corner;
+        if (i >= 2) {
+            GiCorners *triangle = &rows->ply->room.corners[rows->triangle++];
+            (*triangle)[0] = first;
+            (*triangle)[1] = last;
+            (*triangle)[2] = corner;
+        }
+        last = corner;
     }
     return true;
 }
