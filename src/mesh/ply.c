@@ -52,18 +52,34 @@ static const char *after_newline(const char *p, const char *end) {
     return newline != NULL ? newline + 1 : end;
 }
 
-/* Notes the lines of a part that are not empty in place of its row. */
+static size_t count_newlines(const char *p, const char *end) {
+    enum { BLOCK = 128 }; /* whose newlines fit a byte, so that compilers take many bytes at once */
+    size_t count = 0;
+    for (; end - p >= BLOCK; p += BLOCK) {
+        unsigned char sum = 0;
+        for (int i = 0; i < BLOCK; i++) sum = (unsigned char)(sum + (p[i] == '\n'));
+        count += sum;
+    }
+    for (; p < end; p++) count += *p == '\n';
+    return count;
+}
+
+/* Notes the lines of a part in place of its row. */
 static bool count_lines(void *context, size_t part, int worker) {
     Body *body = context;
     const char *p = body->places[part].at, *end = body->places[part + 1].at;
     size_t count = 0;
-    for (; (p = skip_space(p, end)) < end; p = after_newline(p, end)) count++;
-    body->places[part].row = count;
+    if (part + 1 == body->part_count) { /* the last line may have no end, or empty ones behind it */
+        while (end > p && gi_mesh_is_space(end[-1])) end--;
+        count = 1;
+    }
+    body->places[part].row = count + count_newlines(p, end);
     (void)worker;
     return true;
 }
 
-/* A row has a line of its own, as a rule. False when there are too many or too few lines. */
+/* A row has a line of its own, as a rule, and there are no empty ones. False when there are too
+ * many or too few lines. */
 static bool guess_by_lines(Body *body) {
     GiMeshInput *input = body->ply->input;
     const char *end = input->end, *p = body->first.at;
