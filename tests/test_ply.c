@@ -419,7 +419,8 @@ static void cancelled(void) {
             CHECK_INT(status, GLINT_CANCELLED);
             cancelled_count++;
         }
-        CHECK(cancelled_count > (k < 6 ? 20 : 1));
+        /* Of several threads one is asked, which may find all done. */
+        CHECK(k >= 6 || cancelled_count > 20);
     }
 }
 
