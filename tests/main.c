@@ -21,6 +21,7 @@
     X(sample) \
     X(samples) \
     X(mesh) \
+    X(ply) \
     X(reader) \
     X(malformed) \
     X(hit) \
