@@ -8,6 +8,8 @@
 
 enum { BUCKETS = 512, RANKS = 128, CELLS = RANKS * RANKS, KEEP_ORDER = 16 };
 
+static const float GOOD_WIDTH = 1.5f;
+
 typedef struct Axes {
     float u[3], v[3], w[3];
 } Axes;
@@ -169,13 +171,40 @@ static void sort_by_key(GiRegroup *regroup, int count) {
     }
 }
 
+/* How wide packets are in the order that there is, beside what they would be if all of them
+ * together paved the rectangle of all rays. */
+static float packet_width(const GiRegroup *regroup, int count) {
+    int packets = count / GI_PACKET_SIZE;
+    float sum = 0, low_a = INFINITY, high_a = -INFINITY, low_b = INFINITY, high_b = -INFINITY;
+    for (int i = 0; i < packets * GI_PACKET_SIZE; i += GI_PACKET_SIZE) {
+        float a0 = f_lowest(regroup->a + i, GI_PACKET_SIZE);
+        float a1 = f_highest(regroup->a + i, GI_PACKET_SIZE);
+        float b0 = f_lowest(regroup->b + i, GI_PACKET_SIZE);
+        float b1 = f_highest(regroup->b + i, GI_PACKET_SIZE);
+        sum += (a1 - a0) + (b1 - b0);
+        if (low_a > a0) low_a = a0;
+        if (high_a < a1) high_a = a1;
+        if (low_b > b0) low_b = b0;
+        if (high_b < b1) high_b = b1;
+    }
+    return sum / (sqrtf((float)packets) * ((high_a - low_a) + (high_b - low_b)));
+}
+
+static void keep_order(GiRegroup *regroup, int count) {
+    for (int i = 0; i < count; i++) regroup->order[i] = (uint16_t)i;
+}
+
 static void GI_KERNEL(regroup)(
-    GiRegroup *regroup, const float *x, const float *y, const float *z, int count) {
+    GiRegroup *regroup, const float *x, const float *y, const float *z, int count, bool large) {
     if (count <= KEEP_ORDER) {
-        for (int i = 0; i < count; i++) regroup->order[i] = (uint16_t)i;
+        keep_order(regroup, count);
         return;
     }
     project(regroup, x, y, z, count);
+    if (large && packet_width(regroup, count) < GOOD_WIDTH) {
+        keep_order(regroup, count);
+        return;
+    }
     align(regroup, count);
     for (int i = 0; i < count; i++) regroup->key[i] = 0;
     rank(regroup, regroup->a, count, RANKS);

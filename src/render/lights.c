@@ -76,7 +76,10 @@ static void trace_lit(const GiStage *stage, GiVec light) {
     GiBundle *bundle = &scratch->bundle;
     const GiPoints *points = &scratch->points;
     GiLit *lit = &scratch->lit;
-    stage->world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count);
+    /* Where shapes are a few pixels wide it takes less to test them against packets that are a
+     * little wide than to put rays in order. */
+    bool large = 4 * scratch->outlines < points->count && !scratch->shared;
+    stage->world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count, large);
     for (int begin = 0; begin < lit->count; begin += GI_BUNDLE_SIZE) {
         if (gi_stage_stopped(stage)) return;
         const uint16_t *order = scratch->regroup.order + begin;

@@ -143,6 +143,7 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Ex
     GiTileScratch *scratch = stage->scratch;
     scratch->points.count = scratch->segment_count = 0;
     scratch->weighted = scratch->shared = false;
+    scratch->outlines = 0;
     memset(scratch->color, 0, (size_t)(extent->height * STRIDE) * sizeof *scratch->color);
     for (int x = 0; x < extent->width; x++) {
         scratch->across[x] = (extent->x + x + offset_x) / area->width;
