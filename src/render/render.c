@@ -67,11 +67,13 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
     render->counts[worker].other_rays += counts.other_rays;
 }
 
-/* Large tiles trace faster, many tiles share out better: the largest side that leaves every worker
- * sixteen of them. */
-static int tile_side(const GiRenderArea *area, size_t workers) {
+/* The side of tiles. In a large tree many rays share what they fetch of it; where the tree stays in
+ * a core's cache, it is better that a tile's own numbers stay there too. And many tiles share out
+ * better: at least sixteen for every worker. */
+static int tile_side(const GiWorld *world, const GiRenderArea *area, size_t workers) {
+    const size_t large_tree = 2 << 20;
     double pixels = (double)area->crop_width * area->crop_height;
-    int side = GI_TILE_SIDE_LIMIT;
+    int side = world->tree_bytes > large_tree ? GI_TILE_SIDE_LIMIT : GI_TILE_SIDE_LIMIT / 2;
     while (side > 32 && pixels < 16.0 * (double)workers * side * side) side /= 2;
     return side;
 }
@@ -81,7 +83,7 @@ GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *ar
     GiMemory *memory = world->scene->memory;
     size_t workers = (size_t)gi_pool_worker_count(pool);
     Render render = {.world = world, .area = area, .monitor = monitor, .target = target};
-    render.side = tile_side(area, workers);
+    render.side = tile_side(world, area, workers);
     render.columns = (area->crop_width + render.side - 1) / render.side;
     render.rows = (area->crop_height + render.side - 1) / render.side;
     size_t scratch_size = workers * sizeof *render.scratch;
