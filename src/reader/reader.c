@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The outer loop: bytes from the source through the window into expat, whose events go to tree.c.
- * Nothing of the document is kept but the open elements and what is named. */
+ * The outer loop: bytes from the source through the window into the parser, whose events go to
+ * tree.c. Nothing of the document is kept but the open elements and what is named. */
 #include "reader/reader.h"
 
 #include "base/error.h"
@@ -9,40 +9,6 @@
 #include <string.h>
 
 enum { CHUNK_SIZE = 256 * 1024, TOKEN_LIMIT = 64 * 1024 * 1024 };
-
-/* ---------------------------------------------------------------- memory of the parser */
-
-/* Expat's allocator has no user pointer: the memory is found through the thread, and each block
- * notes where it came from and how large it is. */
-static _Thread_local GiMemory *parser_memory;
-
-typedef union Header {
-    struct {
-        GiMemory *memory;
-        size_t size;
-    } block;
-    max_align_t align;
-} Header;
-
-static void *resize_block(void *pointer, size_t size) {
-    if (size > SIZE_MAX - sizeof(Header)) return NULL;
-    Header *old = pointer != NULL ? (Header *)pointer - 1 : NULL;
-    GiMemory *memory = old != NULL ? old->block.memory : parser_memory;
-    Header *header = gi_memory_resize(
-        memory, old, old != NULL ? old->block.size + sizeof(Header) : 0, size + sizeof(Header));
-    if (header == NULL) return NULL;
-    header->block.memory = memory;
-    header->block.size = size;
-    return header + 1;
-}
-
-static void *allocate_block(size_t size) { return resize_block(NULL, size); }
-
-static void free_block(void *pointer) {
-    if (pointer == NULL) return;
-    Header *header = (Header *)pointer - 1;
-    gi_memory_free(header->block.memory, header, header->block.size + sizeof(Header));
-}
 
 /* ---------------------------------------------------------------- stopping */
 
@@ -55,63 +21,6 @@ void gi_reader_stop(GiReader *reader) {
 void gi_reader_out_of_memory(GiReader *reader) {
     reader->out_of_memory = true;
     gi_reader_stop(reader);
-}
-
-/* ---------------------------------------------------------------- what a scene may not have */
-
-static GiPlace current_place(const GiReader *reader) {
-    return (GiPlace){.offset = XML_GetCurrentByteIndex(reader->parser)};
-}
-
-/* Entities can stand for gigabytes, or for other files; no scene needs them. */
-static void XMLCALL on_entity(void *user, const XML_Char *name, int is_parameter,
-    const XML_Char *value, int value_length, const XML_Char *base, const XML_Char *system_id,
-    const XML_Char *public_id, const XML_Char *notation) {
-    GiReader *reader = user;
-    (void)is_parameter, (void)value, (void)value_length, (void)base;
-    (void)system_id, (void)public_id, (void)notation;
-    if (reader->stopped) return;
-    char quote[GI_QUOTE_SIZE];
-    gi_report_add(&reader->report, current_place(reader), 1,
-        "a scene cannot declare entities: `%s`", gi_quote(quote, name, strlen(name)));
-    gi_reader_stop(reader);
-}
-
-/* Default attributes are attributes that nobody wrote. */
-static void XMLCALL on_attribute_list(void *user, const XML_Char *element, const XML_Char *name,
-    const XML_Char *type, const XML_Char *value, int required) {
-    GiReader *reader = user;
-    (void)name, (void)type, (void)value, (void)required;
-    if (reader->stopped) return;
-    char quote[GI_QUOTE_SIZE];
-    gi_report_add(&reader->report, current_place(reader), 1,
-        "a scene cannot declare attributes: those of `%s`",
-        gi_quote(quote, element, strlen(element)));
-    gi_reader_stop(reader);
-}
-
-static void XMLCALL on_skipped_entity(void *user, const XML_Char *name, int is_parameter) {
-    GiReader *reader = user;
-    if (reader->stopped || is_parameter) return;
-    char quote[GI_QUOTE_SIZE];
-    gi_report_add(&reader->report, current_place(reader), 1,
-        "unknown entity `&%s;`: only &lt; &gt; &amp; &quot; and &apos; are known",
-        gi_quote(quote, name, strlen(name)));
-}
-
-static void XMLCALL on_declaration(
-    void *user, const XML_Char *version, const XML_Char *encoding, int standalone) {
-    GiReader *reader = user;
-    (void)version, (void)standalone;
-    if (encoding == NULL) return;
-    size_t i = 0;
-    for (; i + 1 < sizeof reader->encoding && encoding[i] != '\0'; i++) {
-        reader->encoding[i] = gi_lower(encoding[i]);
-    }
-    if (strcmp(reader->encoding, "iso-8859-1") == 0) {
-        reader->window.encoding = GI_ENCODING_LATIN1;
-    }
-    memcpy(reader->encoding, encoding, i);
 }
 
 /* ---------------------------------------------------------------- window and places */
@@ -140,7 +49,7 @@ static int64_t window_end(const GiReader *reader) {
 
 /* The first byte that expat has not dealt with. */
 static int64_t parsed_end(const GiReader *reader) {
-    int64_t offset = XML_GetCurrentByteIndex(reader->parser), end = window_end(reader);
+    int64_t offset = gi_parser_offset(reader), end = window_end(reader);
     return offset < reader->window.base ? reader->window.base : offset > end ? end : offset;
 }
 
@@ -220,11 +129,10 @@ static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
         if (status != GLINT_OK) return status;
         if (first) gi_window_detect(&reader->window);
         first = false;
-        parser_memory = reader->memory;
-        enum XML_Status parsed =
-            XML_Parse(reader->parser, (const char *)reader->window.data + old_size,
-                (int)(reader->window.size - old_size), feed->ended);
-        if (parsed != XML_STATUS_ERROR) continue;
+        if (gi_parser_feed(reader, reader->window.data + old_size, reader->window.size - old_size,
+                feed->ended)) {
+            continue;
+        }
         if (!reader->stopped) {
             int64_t place = parsed_end(reader);
             /* The message may look at what follows, and shows the rest of the line. */
@@ -237,21 +145,6 @@ static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
         reader->stopped = true;
     }
     return GLINT_OK;
-}
-
-static bool open_parser(GiReader *reader) {
-    XML_Memory_Handling_Suite suite = {allocate_block, resize_block, free_block};
-    parser_memory = reader->memory;
-    reader->parser = XML_ParserCreate_MM(NULL, &suite, NULL);
-    if (reader->parser == NULL) return false;
-    XML_SetUserData(reader->parser, reader);
-    XML_SetElementHandler(reader->parser, gi_tree_start, gi_tree_end);
-    XML_SetCharacterDataHandler(reader->parser, gi_tree_text);
-    XML_SetEntityDeclHandler(reader->parser, on_entity);
-    XML_SetAttlistDeclHandler(reader->parser, on_attribute_list);
-    XML_SetSkippedEntityHandler(reader->parser, on_skipped_entity);
-    XML_SetXmlDeclHandler(reader->parser, on_declaration);
-    return true;
 }
 
 static void open_reader(GiReader *reader, GiScene *scene, const GiReaderSource *source) {
@@ -273,7 +166,7 @@ static void open_reader(GiReader *reader, GiScene *scene, const GiReaderSource *
 }
 
 static void close_reader(GiReader *reader) {
-    if (reader->parser != NULL) XML_ParserFree(reader->parser);
+    gi_parser_close(reader);
     gi_array_free(reader->memory, &reader->frames);
     gi_array_free(reader->memory, &reader->tags);
     gi_array_free(reader->memory, &reader->cameras);
@@ -291,7 +184,8 @@ GlintStatus gi_reader_load(
     GiReader *reader = gi_memory_allocate(scene->memory, sizeof *reader);
     if (reader == NULL) return gi_error_memory(error);
     open_reader(reader, scene, source);
-    GlintStatus status = open_parser(reader) ? parse(reader, &feed, error) : gi_error_memory(error);
+    GlintStatus status =
+        gi_parser_open(reader) ? parse(reader, &feed, error) : gi_error_memory(error);
     if (status == GLINT_OK && reader->file_status != GLINT_OK) {
         status = reader->file_status == GLINT_CANCELLED ? report_cancelled(error)
                                                         : gi_error_set(error, reader->file_status,
