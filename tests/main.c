@@ -23,6 +23,7 @@
     X(mesh) \
     X(reader) \
     X(malformed) \
+    X(scan) \
     X(hit) \
     X(shape) \
     X(kernel) \

@@ -247,7 +247,9 @@ static bool same_name(const char *a, GiSpan b) {
 void gi_element_index_init(GiElementIndex *index) {
     memset(index, 0, sizeof *index);
     for (unsigned row = 0; gi_elements[row].name != NULL; row++) {
-        uint8_t *first = &index->first[hash_name(gi_span(gi_elements[row].name))];
+        GiSpan name = gi_span(gi_elements[row].name);
+        uint8_t *first = &index->first[hash_name(name)];
+        index->sizes[row] = (uint8_t)name.size;
         index->next[row] = *first;
         *first = (uint8_t)(row + 1);
     }
@@ -265,7 +267,7 @@ const GiElement *gi_element_guess(GiElementIndex *index, GiSpan name, GiContexts
     uint8_t *guess = &index->after[index->last];
     const GiElement *element = *guess > 0 ? &gi_elements[*guess - 1] : NULL;
     if (element == NULL || (element->contexts & contexts) == 0 ||
-        !gi_span_is(name, element->name)) {
+        name.size != index->sizes[*guess - 1] || memcmp(name.data, element->name, name.size) != 0) {
         element = gi_element_find(index, name, contexts);
         if (element == NULL) return NULL;
         *guess = (uint8_t)(element - gi_elements + 1);
@@ -276,7 +278,8 @@ const GiElement *gi_element_guess(GiElementIndex *index, GiSpan name, GiContexts
 
 const GiType *gi_type_find(GiSpan name, GiKind kind) {
     for (const GiType *type = gi_types; type->name != NULL; type++) {
-        if (type->kind == kind && gi_span_is(name, type->name)) return type;
+        if (type->kind != kind || name.size == 0 || type->name[0] != name.data[0]) continue;
+        if (gi_span_is(name, type->name)) return type;
     }
     return NULL;
 }

@@ -184,6 +184,7 @@ enum { GI_ELEMENT_LIMIT = 128, GI_ELEMENT_SLOT_COUNT = 256 };
 typedef struct GiElementIndex {
     uint8_t first[GI_ELEMENT_SLOT_COUNT]; /* row + 1 */
     uint8_t next[GI_ELEMENT_LIMIT];       /* row + 1 */
+    uint8_t sizes[GI_ELEMENT_LIMIT];      /* of the names */
     uint8_t after[GI_ELEMENT_LIMIT + 1];  /* row + 1 of what came after a row last time */
     uint8_t last;                         /* row + 1 */
 } GiElementIndex;

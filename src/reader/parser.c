@@ -131,6 +131,14 @@ bool gi_parser_open(GiReader *reader) {
     reader->parser = XML_ParserCreate_MM(NULL, &suite, NULL);
     if (reader->parser == NULL) return false;
     XML_SetUserData(reader->parser, reader);
+    /* Expat gets into the state that it would be in by the tags of the open elements, or by one
+     * element that is closed. Without handlers, they make no events. */
+    const GiScanner *scanner = &reader->scanner;
+    GiSpan open = gi_scanner_is_complete(scanner)
+                      ? gi_span("<scene/>")
+                      : (GiSpan){scanner->open.data, scanner->open.count};
+    reader->parser_shift = scanner->next - (int64_t)open.size;
+    if (open.size > 0 && !gi_parser_feed(reader, open.data, open.size, false)) return false;
     XML_SetElementHandler(reader->parser, on_start, on_end);
     XML_SetCharacterDataHandler(reader->parser, on_text);
     XML_SetEntityDeclHandler(reader->parser, on_entity);
@@ -145,7 +153,9 @@ void gi_parser_close(GiReader *reader) {
     gi_array_free(reader->memory, &reader->attributes);
 }
 
-int64_t gi_parser_offset(const GiReader *reader) { return XML_GetCurrentByteIndex(reader->parser); }
+int64_t gi_parser_offset(const GiReader *reader) {
+    return XML_GetCurrentByteIndex(reader->parser) + reader->parser_shift;
+}
 
 bool gi_parser_feed(GiReader *reader, const void *bytes, size_t size, bool last) {
     parser_memory = reader->memory;

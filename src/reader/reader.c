@@ -15,7 +15,7 @@ enum { CHUNK_SIZE = 256 * 1024, TOKEN_LIMIT = 64 * 1024 * 1024 };
 void gi_reader_stop(GiReader *reader) {
     if (reader->stopped) return;
     reader->stopped = true;
-    XML_StopParser(reader->parser, XML_FALSE);
+    if (reader->parser != NULL) XML_StopParser(reader->parser, XML_FALSE);
 }
 
 void gi_reader_out_of_memory(GiReader *reader) {
@@ -47,8 +47,9 @@ static int64_t window_end(const GiReader *reader) {
     return reader->window.base + (int64_t)reader->window.size;
 }
 
-/* The first byte that expat has not dealt with. */
+/* The first byte that the scanner or expat has not dealt with. */
 static int64_t parsed_end(const GiReader *reader) {
+    if (reader->parser == NULL) return reader->scanner.next;
     int64_t offset = gi_parser_offset(reader), end = window_end(reader);
     return offset < reader->window.base ? reader->window.base : offset > end ? end : offset;
 }
@@ -84,7 +85,7 @@ static GlintStatus report_cancelled(GlintError *error) {
 static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintError *error) {
     const GiReaderSource *source = feed->source;
     const GlintMonitor *monitor = source->monitor;
-    if (!gi_window_reserve(&reader->window, wanted)) return gi_error_memory(error);
+    if (!gi_window_reserve(&reader->window, wanted + 1)) return gi_error_memory(error);
     for (size_t got = 0; got < wanted && !feed->ended;) {
         if (is_cancelled(monitor)) return report_cancelled(error);
         size_t size = wanted - got < CHUNK_SIZE ? wanted - got : CHUNK_SIZE;
@@ -98,6 +99,7 @@ static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintE
         feed->ended = count == 0;
         got += (size_t)count;
         reader->window.size += (size_t)count;
+        reader->window.data[reader->window.size] = 0; /* where the scanner stops */
         feed->total += count;
     }
     if (monitor != NULL && monitor->progress != NULL) {
@@ -106,6 +108,36 @@ static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintE
         monitor->progress(monitor->user, GLINT_PHASE_READ, fraction < 1 ? fraction : 1);
     }
     return GLINT_OK;
+}
+
+/* Scans what is in the window. GI_SCAN_MORE only where there is more, or all is done. */
+static GiScanStatus scan_window(GiReader *reader, const Feed *feed) {
+    const GiWindow *window = &reader->window;
+    size_t from = (size_t)(reader->scanner.next - window->base);
+    GiScanStatus status = gi_scan(
+        &reader->scanner, (const char *)window->data + from, window->size - from, &reader->tape);
+    if (status == GI_SCAN_MEMORY) return status;
+    gi_tape_play(reader, &reader->tape);
+    bool done =
+        reader->scanner.next == window_end(reader) && gi_scanner_is_complete(&reader->scanner);
+    return feed->ended && !done ? GI_SCAN_STRANGE : status;
+}
+
+/* Hands what is new in the window, from an offset on, to the scanner or expat. False when neither
+ * can go on; memory may be short then, or the reader stopped. */
+static bool parse_window(GiReader *reader, const Feed *feed, int64_t from) {
+    if (reader->parser == NULL) {
+        GiScanStatus status = scan_window(reader, feed);
+        if (status == GI_SCAN_MORE || reader->stopped) return !reader->stopped;
+        if (status == GI_SCAN_MEMORY || !gi_parser_open(reader)) {
+            gi_reader_out_of_memory(reader);
+            return false;
+        }
+        from = reader->scanner.next;
+    }
+    size_t begin = (size_t)(from - reader->window.base);
+    return gi_parser_feed(
+        reader, reader->window.data + begin, reader->window.size - begin, feed->ended);
 }
 
 static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
@@ -123,16 +155,13 @@ static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
             return GLINT_OK;
         }
         if (first && wanted < 4) wanted = 4; /* the encoding shows in the first bytes */
-        slide_window(reader, wanted);
-        size_t old_size = reader->window.size;
+        slide_window(reader, wanted + 1);
+        int64_t from = window_end(reader);
         GlintStatus status = read_more(reader, feed, wanted, error);
         if (status != GLINT_OK) return status;
         if (first) gi_window_detect(&reader->window);
         first = false;
-        if (gi_parser_feed(reader, reader->window.data + old_size, reader->window.size - old_size,
-                feed->ended)) {
-            continue;
-        }
+        if (parse_window(reader, feed, from)) continue;
         if (!reader->stopped) {
             int64_t place = parsed_end(reader);
             /* The message may look at what follows, and shows the rest of the line. */
@@ -154,6 +183,7 @@ static void open_reader(GiReader *reader, GiScene *scene, const GiReaderSource *
     reader->memory = scene->memory;
     gi_element_index_init(&reader->elements);
     gi_window_init(&reader->window, scene->memory);
+    gi_scanner_init(&reader->scanner, scene->memory);
     gi_report_init(&reader->report, scene->memory, &reader->window);
     gi_names_init(&reader->names, scene->memory);
     gi_names_init(&reader->strings, scene->memory);
@@ -167,6 +197,8 @@ static void open_reader(GiReader *reader, GiScene *scene, const GiReaderSource *
 
 static void close_reader(GiReader *reader) {
     gi_parser_close(reader);
+    gi_scanner_reset(&reader->scanner);
+    gi_array_free(reader->memory, &reader->tape.entries);
     gi_array_free(reader->memory, &reader->frames);
     gi_array_free(reader->memory, &reader->tags);
     gi_array_free(reader->memory, &reader->cameras);
@@ -184,8 +216,8 @@ GlintStatus gi_reader_load(
     GiReader *reader = gi_memory_allocate(scene->memory, sizeof *reader);
     if (reader == NULL) return gi_error_memory(error);
     open_reader(reader, scene, source);
-    GlintStatus status =
-        gi_parser_open(reader) ? parse(reader, &feed, error) : gi_error_memory(error);
+    bool open = !source->expat_only || gi_parser_open(reader);
+    GlintStatus status = open ? parse(reader, &feed, error) : gi_error_memory(error);
     if (status == GLINT_OK && reader->file_status != GLINT_OK) {
         status = reader->file_status == GLINT_CANCELLED ? report_cancelled(error)
                                                         : gi_error_set(error, reader->file_status,

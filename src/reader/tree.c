@@ -525,3 +525,8 @@ void gi_tree_text(GiReader *reader, GiSpan text, int64_t offset) {
         gi_value_append(reader, text, offset);
     }
 }
+
+bool gi_tree_numbers(GiReader *reader, GiVec value, int count) {
+    const GiFrame *frame = gi_reader_top(reader);
+    return frame->skip != GI_SKIP_NONE || gi_value_take(reader, frame->element, value, count);
+}

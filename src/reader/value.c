@@ -295,6 +295,16 @@ static bool passes(GiCheck check, GiVec value) {
     return true;
 }
 
+bool gi_value_take(GiReader *reader, const GiElement *element, GiVec value, int count) {
+    bool real = element->kind == GI_KIND_REAL || gi_kind_count(element->kind) == 3;
+    if (!real || count != gi_kind_count(element->kind) || !passes(element->check, value)) {
+        return false;
+    }
+    reader->value = value;
+    reader->value_ready = true;
+    return true;
+}
+
 bool gi_value_check(
     GiReader *reader, const GiElement *element, GiVec value, GiPlace place, int length) {
     if (passes(element->check, value)) return true;
