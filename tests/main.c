@@ -24,6 +24,7 @@
     X(ply) \
     X(reader) \
     X(malformed) \
+    X(scan) \
     X(hit) \
     X(shape) \
     X(kernel) \
