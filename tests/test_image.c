@@ -3,9 +3,10 @@
 #include "base/cookie.h"
 #include "base/memory.h"
 #include "image/deflate.h"
-#include "image/gamma.h"
 #include "image/png.h"
+#include "kernel/kernel.h"
 #include "math/elementary.h"
+#include "math/gamma.h"
 #include "pictures.h"
 #include "test.h"
 
@@ -26,6 +27,11 @@ static float from_bits(uint32_t bits) {
 static uint8_t encode_one(float value) {
     uint8_t byte;
     gi_gamma_encode(&value, 1, &byte);
+    for (int i = 0; gi_kernel_at(i) != NULL; i++) {
+        uint8_t other;
+        gi_kernel_at(i)->encode(&value, 1, &other);
+        CHECK_INT(other, byte);
+    }
     return byte;
 }
 
@@ -83,6 +89,12 @@ static void gamma_follows_the_formula(void) {
     int wrong = 0;
     for (int i = 0; i < COUNT; i++) wrong += bytes[i] != formula(values[i]);
     CHECK_INT(wrong, 0);
+    for (int i = 0; gi_kernel_at(i) != NULL; i++) {
+        uint8_t *others = malloc(COUNT);
+        gi_kernel_at(i)->encode(values, COUNT, others);
+        CHECK(memcmp(bytes, others, COUNT) == 0);
+        free(others);
+    }
     free(values);
     free(bytes);
 }
@@ -107,6 +119,12 @@ static void gamma_extremes(void) {
         gi_gamma_encode(mixed, (size_t)length, bytes);
         CHECK_INT(bytes[length], 77);
         if (length > 0) CHECK_INT(bytes[length - 1], encode_one(mixed[length - 1]));
+        for (int i = 0; gi_kernel_at(i) != NULL; i++) {
+            uint8_t others[201];
+            memset(others, 77, sizeof others);
+            gi_kernel_at(i)->encode(mixed, (size_t)length, others);
+            CHECK(memcmp(bytes, others, sizeof bytes) == 0);
+        }
     }
 }
 

@@ -6,9 +6,9 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "image/exr.h"
-#include "image/gamma.h"
 #include "image/pfm.h"
 #include "image/png.h"
+#include "math/gamma.h"
 #include "port/file.h"
 
 #include <string.h>

@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "image/deflate.h"
-#include "image/gamma.h"
+#include "math/gamma.h"
 #include "port/machine.h"
 #include "sched/pool.h"
 
