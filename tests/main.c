@@ -39,6 +39,7 @@
     X(render) \
     X(transport) \
     X(outputs) \
+    X(save) \
     X(flight) \
     X(golden) \
     X(api) \
