@@ -166,6 +166,27 @@ GlintStatus glint_scene_load_stream(GlintScene *scene, GlintReadFn read, void *u
 
 /* ---------------------------------------------------------------- commit, render */
 
+/* The pool, with as many workers as `jobs` jobs can keep busy and the scene may have. A thread
+ * takes longer to start than a small scene takes to draw. */
+static GlintStatus need_workers(GlintScene *scene, size_t jobs, GlintError *error) {
+    int size = gi_pool_size(scene->thread_count);
+    if (jobs < (size_t)size) size = (int)jobs;
+    if (scene->pool != NULL && gi_pool_worker_count(scene->pool) >= size) return GLINT_OK;
+    gi_pool_destroy(scene->pool);
+    scene->pool = NULL;
+    GlintStatus status = gi_pool_create(&scene->memory, size, &scene->pool);
+    if (status == GLINT_OK) return status;
+    return gi_error_set(error, status, "%s", glint_status_text(status));
+}
+
+/* How many can help to build the tree. */
+static size_t build_jobs(const GiScene *model) {
+    enum { FEW = 1024 };
+    bool small =
+        model->shape_count < FEW && model->groups.count == 0 && model->meshes.meshes.count == 0;
+    return small ? 1 : SIZE_MAX;
+}
+
 GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, GlintError *error) {
     if (scene == NULL) return ARGUMENT(error, "scene is null");
     if (scene->committed) return ARGUMENT(error, "the scene is committed already");
@@ -178,19 +199,17 @@ GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, G
             scene->dialect != GLINT_DIALECT_AUTO ? scene->dialect : GLINT_DIALECT_GLINT;
     }
     double start = gi_machine_seconds();
-    GlintStatus status = gi_pool_create(&scene->memory, scene->thread_count, &scene->pool);
-    if (status != GLINT_OK) {
-        scene->broken = true;
-        return gi_error_set(error, status, "%s", glint_status_text(status));
+    GlintStatus status = need_workers(scene, build_jobs(model), error);
+    if (status == GLINT_OK) {
+        status = gi_world_commit(&scene->world, model, scene->kernel, scene->pool, monitor, error);
     }
-    status = gi_world_commit(&scene->world, model, scene->kernel, scene->pool, monitor, error);
     scene->broken = status != GLINT_OK;
     if (status != GLINT_OK) return status;
     scene->committed = true;
     GlintStats *stats = &scene->stats;
     const GiWorld *world = &scene->world;
     stats->build_seconds = gi_machine_seconds() - start;
-    stats->thread_count = gi_pool_worker_count(scene->pool);
+    stats->thread_count = gi_pool_size(scene->thread_count);
     stats->primitive_count = world->primitive_count;
     stats->node_count = world->node_count;
     stats->leaf_count = world->leaf_count;
@@ -221,9 +240,9 @@ void glint_scene_stats(const GlintScene *scene, GlintStats *stats) {
 
 GlintRenderDesc glint_render_desc_default(void) { return (GlintRenderDesc){.cookie = GI_COOKIE}; }
 
-/* What desc asks for; color and png are left to the caller. */
-static GlintStatus plan_render(const GlintScene *scene, const GlintRenderDesc *desc,
-    GiRenderArea *area, GiRenderTarget *target, GlintError *error) {
+/* What desc asks for, and the workers for it; color and png are left to the caller. */
+static GlintStatus plan_render(GlintScene *scene, const GlintRenderDesc *desc, GiRenderArea *area,
+    GiRenderTarget *target, GlintError *error) {
     if (scene == NULL || desc == NULL) return ARGUMENT(error, "scene or desc is null");
     if (desc->cookie != GI_COOKIE) return ARGUMENT(error, NO_DEFAULT("glint_render_desc_default"));
     if (!scene->committed) return ARGUMENT(error, "the scene is not committed");
@@ -262,7 +281,9 @@ static GlintStatus plan_render(const GlintScene *scene, const GlintRenderDesc *d
         .light = desc->light,
         .sampling = desc->sampling,
     };
-    return GLINT_OK;
+    size_t across = (size_t)(area->crop_width - 1) / GI_RENDER_TILE_LEAST + 1;
+    size_t down = (size_t)(area->crop_height - 1) / GI_RENDER_TILE_LEAST + 1;
+    return need_workers(scene, across * down, error);
 }
 
 static GlintStatus render(GlintScene *scene, const GiRenderArea *area, const GlintMonitor *monitor,

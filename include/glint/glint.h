@@ -525,7 +525,7 @@ GLINT_API GlintStatus glint_image_save(
 /* Draws and writes path: what glint_render and then glint_image_save would write, to the byte. A
  * PNG is encoded while it is drawn, and its pixels need no memory beyond what is under way. Both
  * descs count, but for save's thread_count: the scene's threads do it. One call at a time per
- * scene. Errors: ARGUMENT, FILE, MEMORY, CANCELLED (nothing is then written). */
+ * scene. Errors: ARGUMENT, FILE, MEMORY, THREAD, CANCELLED (nothing is then written). */
 GLINT_API GlintStatus glint_render_save(GlintScene *scene, const GlintRenderDesc *desc,
     const char *path, const GlintSaveDesc *save, GlintError *error);
 

@@ -40,6 +40,5 @@ const GiKernel GI_KERNEL(kernel) = {
     GI_KERNEL(shadows),
     GI_KERNEL(add),
     GI_KERNEL(encode),
-    GI_KERNEL(regroup_init),
     GI_KERNEL(regroup),
 };

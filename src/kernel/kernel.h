@@ -97,7 +97,6 @@ typedef struct GiKernel {
     /* Adds what arrives to what the points show. */
     void (*add)(const GiLit *lit, GiPoints *points);
     GiGammaFn encode;
-    void (*regroup_init)(GiRegroup *regroup); /* once */
     /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT. `large`: the shapes around
      * are, so that the order stays as it is where it is good enough. */
     void (*regroup)(

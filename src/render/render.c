@@ -82,7 +82,7 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
 static int tile_side(const GiRenderArea *area, size_t workers) {
     double pixels = (double)area->crop_width * area->crop_height;
     int side = GI_TILE_SIDE_LIMIT;
-    while (side > 32 && pixels < 16.0 * (double)workers * side * side) side /= 2;
+    while (side > GI_RENDER_TILE_LEAST && pixels < 16.0 * (double)workers * side * side) side /= 2;
     return side;
 }
 

@@ -34,6 +34,10 @@ typedef struct GiRenderTarget {
     GiTechnique technique;
 } GiRenderTarget;
 
+/* No tile is smaller, but at the border: a picture has no use for more workers than it has squares
+ * of this side. */
+enum { GI_RENDER_TILE_LEAST = 32 };
+
 /* Errors: MEMORY, CANCELLED (also when the receiver of the PNG has stopped). */
 GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *area,
     const GlintMonitor *monitor, const GiRenderTarget *target, GiRenderCounts *counts);
