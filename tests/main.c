@@ -40,6 +40,7 @@
     X(render) \
     X(transport) \
     X(outputs) \
+    X(save) \
     X(flight) \
     X(golden) \
     X(api) \

@@ -76,29 +76,29 @@ static void align(GiRegroup *regroup, int count) {
     }
 }
 
-/* Place of a cell on the curve (Hilbert 1891): from the largest square down, the quarter that holds
- * the cell, with the quarters turned so that the curve stays in one piece. */
-static uint16_t hilbert_place(unsigned x, unsigned y) {
-    unsigned place = 0;
-    for (unsigned side = RANKS / 2; side > 0; side /= 2) {
-        unsigned right = (x & side) != 0, up = (y & side) != 0;
-        place += side * side * ((3 * right) ^ up);
-        if (up == 0) {
-            if (right == 1) {
-                x = RANKS - 1 - x;
-                y = RANKS - 1 - y;
+/* The place of each cell on the curve (Hilbert 1891), from squares of one cell up: four of a size
+ * make the next, turned so that the curve stays in one piece. Made when it is first needed, since
+ * not all scenes have shadows. */
+static void draw_curve(uint16_t curve[RANKS * RANKS]) {
+    curve[0] = 0;
+    for (unsigned side = 1; side < RANKS; side *= 2) {
+        unsigned cells = side * side;
+        for (unsigned x = 0; x < side; x++) {
+            for (unsigned y = 0; y < side; y++) {
+                unsigned place = curve[x * RANKS + y];
+                unsigned turned_x = 2 * side - 1 - y, turned_y = side - 1 - x;
+                curve[x * RANKS + side + y] = (uint16_t)(cells + place);
+                curve[(side + x) * RANKS + side + y] = (uint16_t)(2 * cells + place);
+                curve[turned_x * RANKS + turned_y] = (uint16_t)(3 * cells + place);
             }
-            unsigned swap = x;
-            x = y;
-            y = swap;
         }
-    }
-    return (uint16_t)place;
-}
-
-static void GI_KERNEL(regroup_init)(GiRegroup *regroup) {
-    for (unsigned x = 0; x < RANKS; x++) {
-        for (unsigned y = 0; y < RANKS; y++) regroup->curve[x * RANKS + y] = hilbert_place(x, y);
+        for (unsigned x = 0; x < side; x++) {
+            for (unsigned y = 0; y < x; y++) {
+                uint16_t place = curve[x * RANKS + y];
+                curve[x * RANKS + y] = curve[y * RANKS + x];
+                curve[y * RANKS + x] = place;
+            }
+        }
     }
 }
 
@@ -205,6 +205,8 @@ static void GI_KERNEL(regroup)(
         keep_order(regroup, count);
         return;
     }
+    if (!regroup->drawn) draw_curve(regroup->curve);
+    regroup->drawn = true;
     align(regroup, count);
     for (int i = 0; i < count; i++) regroup->key[i] = 0;
     rank(regroup, regroup->a, count, RANKS);

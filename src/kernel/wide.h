@@ -11,6 +11,8 @@
  * Comparisons of floats give bits, lane 0 lowest. Arithmetic is written with operators. */
 #pragma once
 
+#include "math/gamma.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -311,6 +313,49 @@ static inline int eight_push_sorted(
     _mm256_storeu_ps(keys, _mm256_permutevar8x32_ps(key, a));
     _mm256_storeu_si256((__m256i *)(void *)values, _mm256_permutevar8x32_epi32(all, a));
     return _mm_popcnt_u32(bits);
+}
+#endif
+
+/* ---------------------------------------------------------------- floats: gamma */
+
+/* Sixteen values, clamped, through the table of math/gamma.h. The smallest value comes second to
+ * max, which then takes it for NaN. With AVX-512 the look-ups take 0.27 ns a value, with AVX2 0.45,
+ * one by one 0.8. */
+#if defined(GI_IS_AVX512)
+static inline void sixteen_gamma(const uint32_t *table, const float p[16], uint8_t to[16]) {
+    __m512 value = _mm512_max_ps(_mm512_loadu_ps(p), _mm512_set1_ps(GI_GAMMA_LOWEST));
+    __m512i bits = _mm512_castps_si512(_mm512_min_ps(value, _mm512_set1_ps(1)));
+    __m512i bucket = _mm512_srli_epi32(
+        _mm512_sub_epi32(bits, _mm512_set1_epi32(GI_GAMMA_LOWEST_BITS)), GI_GAMMA_LOW_BITS);
+    __m512i low = _mm512_and_si512(bits, _mm512_set1_epi32((1 << GI_GAMMA_LOW_BITS) - 1));
+    __m512i sum = _mm512_add_epi32(_mm512_i32gather_epi32(bucket, table, 4), low);
+    __m128i all = _mm512_cvtepi32_epi8(_mm512_srli_epi32(sum, GI_GAMMA_LOW_BITS));
+    _mm_storeu_si128((__m128i *)(void *)to, all);
+}
+#elif defined(GI_IS_AVX2)
+static inline __m256i eight_gamma(const uint32_t *table, const float p[8]) {
+    __m256 value = _mm256_max_ps(_mm256_loadu_ps(p), _mm256_set1_ps(GI_GAMMA_LOWEST));
+    __m256i bits = _mm256_castps_si256(_mm256_min_ps(value, _mm256_set1_ps(1)));
+    __m256i bucket = _mm256_srli_epi32(
+        _mm256_sub_epi32(bits, _mm256_set1_epi32(GI_GAMMA_LOWEST_BITS)), GI_GAMMA_LOW_BITS);
+    __m256i low = _mm256_and_si256(bits, _mm256_set1_epi32((1 << GI_GAMMA_LOW_BITS) - 1));
+    __m256i entry = _mm256_i32gather_epi32((const int *)(const void *)table, bucket, 4);
+    return _mm256_srli_epi32(_mm256_add_epi32(entry, low), GI_GAMMA_LOW_BITS);
+}
+static inline void sixteen_gamma(const uint32_t *table, const float p[16], uint8_t to[16]) {
+    __m256i words = _mm256_packus_epi32(eight_gamma(table, p), eight_gamma(table, p + 8));
+    words = _mm256_permute4x64_epi64(words, 0xd8); /* packing works in halves */
+    __m128i low = _mm256_castsi256_si128(words), high = _mm256_extracti128_si256(words, 1);
+    _mm_storeu_si128((__m128i *)(void *)to, _mm_packus_epi16(low, high));
+}
+#else
+static inline void sixteen_gamma(const uint32_t *table, const float p[16], uint8_t to[16]) {
+    float clamped[16];
+    for (int i = 0; i < 16; i += GI_FLOATS) {
+        F value = f_max(f_load(p + i), f_of(GI_GAMMA_LOWEST));
+        f_store(clamped + i, f_min(value, f_of(1)));
+    }
+    for (int i = 0; i < 16; i++) to[i] = gi_gamma_byte(table, clamped[i]);
 }
 #endif
 

@@ -31,7 +31,7 @@ GiTileScratch *gi_tile_scratch_create(const GiWorld *world, const GiRenderTarget
         return NULL;
     }
     for (size_t i = 0; i < shader_count; i++) scratch->head[i] = GI_NONE;
-    world->kernel->regroup_init(&scratch->regroup);
+    scratch->regroup.drawn = false;
     return scratch;
 }
 
@@ -163,12 +163,16 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Ex
     gi_flight_follow(stage);
 }
 
+/* A quotient to the last bit: a power of two is divided by with a product, which takes a quarter of
+ * the time. The sum with zero makes one zero of two. */
 static void store_color(
-    const GiVec *sum, int row, int width, int samples, double exposure, float *to) {
-    for (int i = row * STRIDE; i < row * STRIDE + width; i++) {
-        *to++ = (float)(sum[i].x / samples * exposure);
-        *to++ = (float)(sum[i].y / samples * exposure);
-        *to++ = (float)(sum[i].z / samples * exposure);
+    const GiVec *sum, int width, int samples, double exposure, float *restrict to) {
+    const double *from = &sum->x;
+    double part = 1.0 / samples;
+    if ((samples & (samples - 1)) == 0) {
+        for (int i = 0; i < 3 * width; i++) to[i] = (float)(from[i] * part * exposure + 0.0);
+    } else {
+        for (int i = 0; i < 3 * width; i++) to[i] = (float)(from[i] / samples * exposure + 0.0);
     }
 }
 
@@ -198,18 +202,36 @@ static int grid_of(int samples) {
     return n > 1 ? n : 1;
 }
 
-static void clear(const Extent *extent, GiTileScratch *scratch) {
-    size_t count = (size_t)(extent->height * STRIDE);
-    memset(scratch->sum, 0, count * sizeof *scratch->sum);
-    if (scratch->seen != NULL) memset(scratch->seen, 0, count * sizeof *scratch->seen);
-}
-
-static void add_sample(const Extent *extent, GiTileScratch *scratch) {
+static void add_sample(const Extent *extent, GiTileScratch *scratch, bool first) {
     for (int row = 0; row < extent->height; row++) {
         for (int i = row * STRIDE; i < row * STRIDE + extent->width; i++) {
-            scratch->sum[i] = gi_add(scratch->sum[i], scratch->color[i]);
+            scratch->sum[i] =
+                first ? scratch->color[i] : gi_add(scratch->sum[i], scratch->color[i]);
         }
     }
+}
+
+/* The tile's pixels to where they are wanted; x and y as for gi_tile_draw. False: no memory. */
+static bool store(
+    const GiStage *stage, const GiRenderArea *area, const Extent *extent, int x, int y, int count) {
+    const GiTileScratch *scratch = stage->scratch;
+    const GiRenderTarget *target = stage->target;
+    const GiScene *scene = stage->world->scene;
+    double exposure = scene->exposure > 0 ? scene->exposure : 1;
+    /* One sample is its own sum. */
+    const GiVec *sum = count > 1 ? scratch->sum : scratch->color;
+    for (int row = 0; row < extent->height; row++) {
+        size_t at = (size_t)(y + row) * (size_t)area->crop_width + (size_t)x;
+        float own[3 * STRIDE], *color = target->color != NULL ? target->color + 3 * at : own;
+        store_color(sum + row * STRIDE, extent->width, count, exposure, color);
+        if (target->png != NULL &&
+            !gi_png_put(target->png, x, y + row, extent->width, color, stage->control->worker)) {
+            return false;
+        }
+        if (scratch->seen == NULL) continue;
+        store_seen(scratch->seen + row * STRIDE, extent->width, count, at, target);
+    }
+    return true;
 }
 
 bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
@@ -223,20 +245,17 @@ bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
     scratch->bundle.stop = ask;
     scratch->bundle.stop_context = control;
     int n = grid_of(target->samples);
-    if (n > 1 || scratch->seen != NULL) clear(&extent, scratch);
+    if (scratch->seen != NULL) {
+        memset(scratch->seen, 0, (size_t)(extent.height * STRIDE) * sizeof *scratch->seen);
+    }
     for (int sample = 0; sample < n * n; sample++) {
         stage.sample = (uint32_t)sample;
         draw_sample(&stage, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n);
         if (stopped(control)) return false;
-        if (n > 1) add_sample(&extent, scratch);
+        if (n > 1) add_sample(&extent, scratch, sample == 0);
     }
-    const GiVec *sum = n > 1 ? scratch->sum : scratch->color;
-    double exposure = world->scene->exposure > 0 ? world->scene->exposure : 1;
-    for (int row = 0; row < extent.height; row++) {
-        size_t at = (size_t)(y + row) * (size_t)area->crop_width + (size_t)x;
-        store_color(sum, row, extent.width, n * n, exposure, target->color + 3 * at);
-        if (scratch->seen == NULL) continue;
-        store_seen(scratch->seen + row * STRIDE, extent.width, n * n, at, target);
-    }
-    return true;
+    if (store(&stage, area, &extent, x, y, n * n)) return true;
+    scratch->out_of_memory = true;
+    atomic_store(control->stop, true);
+    return false;
 }
