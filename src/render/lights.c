@@ -70,8 +70,7 @@ static void light_segment(const GiStage *stage, const GiLight *light, const GiSe
     }
 }
 
-/* Traces the shadow rays, in an order of the kernels' liking. */
-static void trace_lit(const GiStage *stage, GiVec light) {
+void gi_lights_trace(const GiStage *stage, GiVec light) {
     GiTileScratch *scratch = stage->scratch;
     GiBundle *bundle = &scratch->bundle;
     const GiPoints *points = &scratch->points;
@@ -125,7 +124,7 @@ static void add_point_light(const GiStage *stage, const GiLight *light) {
         }
     }
     if (scratch->lit.count == 0) return;
-    trace_lit(stage, light->position);
+    gi_lights_trace(stage, light->position);
     stage->counts->shadow_rays += (uint64_t)scratch->lit.count;
     if (!gi_stage_stopped(stage)) add_lit(stage);
 }

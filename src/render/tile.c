@@ -4,9 +4,8 @@
 #include <string.h>
 
 enum {
-    BLOCK_SIDE = 32, /* a bundle of camera rays: 32 x 32 pixels */
     PACKET_SIDE = 4, /* a packet: 4 x 4 */
-    PACKETS_ACROSS = BLOCK_SIDE / PACKET_SIDE,
+    PACKETS_ACROSS = GI_BLOCK_SIDE / PACKET_SIDE,
     STRIDE = GI_TILE_STRIDE
 };
 
@@ -45,11 +44,6 @@ void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch) {
 }
 
 bool gi_tile_out_of_memory(const GiTileScratch *scratch) { return scratch->out_of_memory; }
-
-/* The tile's pixels that lie in the area. */
-typedef struct Extent {
-    int x, y, width, height;
-} Extent;
 
 static bool stopped(const GiTileControl *control) {
     const GlintMonitor *monitor = control->monitor;
@@ -92,10 +86,22 @@ static void trace_apart(const GiStage *stage) {
     }
 }
 
+void gi_tile_aim(const GiStage *stage, const GiRenderArea *area, const GiTileExtent *extent,
+    double offset_x, double offset_y) {
+    GiTileScratch *scratch = stage->scratch;
+    for (int x = 0; x < extent->width; x++) {
+        scratch->across[x] = (extent->x + x + offset_x) / area->width;
+    }
+    for (int y = 0; y < extent->height; y++) {
+        /* Rows of the picture run down, the window's coordinate runs up. */
+        scratch->up[y] = (area->height - 1 - (extent->y + y) + offset_y) / area->height;
+    }
+}
+
 static inline int minimum(int a, int b) { return a < b ? a : b; }
 
 /* Fills the bundle with the rays of a block's pixels, packet by packet. */
-static void set_rays(const GiStage *stage, const Extent *extent, int block_x, int block_y) {
+static void set_rays(const GiStage *stage, const GiTileExtent *extent, int block_x, int block_y) {
     const GiWorld *world = stage->world;
     GiTileScratch *scratch = stage->scratch;
     GiBundle *bundle = &scratch->bundle;
@@ -124,38 +130,35 @@ static void set_rays(const GiStage *stage, const Extent *extent, int block_x, in
     }
 }
 
-static void trace_block(const GiStage *stage, const Extent *extent, int block_x, int block_y) {
+int gi_tile_trace_block(
+    const GiStage *stage, const GiTileExtent *extent, int block_x, int block_y) {
     const GiWorld *world = stage->world;
+    GiBundle *bundle = &stage->scratch->bundle;
+    if (gi_stage_stopped(stage)) return 0;
     set_rays(stage, extent, block_x, block_y);
     if (world->view.parallel) {
         trace_apart(stage);
     } else {
-        world->kernel->bundle_closest(&world->trace, &stage->scratch->bundle);
+        world->kernel->bundle_closest(&world->trace, bundle);
     }
-    gi_surface_bundle(stage);
+    return bundle->count;
 }
 
 /* ---------------------------------------------------------------- the tile */
 
 /* One of the n x n samples of every pixel. */
-static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Extent *extent,
+static void draw_sample(const GiStage *stage, const GiRenderArea *area, const GiTileExtent *extent,
     double offset_x, double offset_y) {
     GiTileScratch *scratch = stage->scratch;
     scratch->points.count = scratch->segment_count = 0;
     scratch->weighted = scratch->shared = false;
     scratch->outlines = 0;
     memset(scratch->color, 0, (size_t)(extent->height * STRIDE) * sizeof *scratch->color);
-    for (int x = 0; x < extent->width; x++) {
-        scratch->across[x] = (extent->x + x + offset_x) / area->width;
-    }
-    for (int y = 0; y < extent->height; y++) {
-        /* Rows of the picture run down, the window's coordinate runs up. */
-        scratch->up[y] = (area->height - 1 - (extent->y + y) + offset_y) / area->height;
-    }
-    for (int y = 0; y < extent->height; y += BLOCK_SIDE) {
-        for (int x = 0; x < extent->width; x += BLOCK_SIDE) {
-            if (gi_stage_stopped(stage)) return;
-            trace_block(stage, extent, x, y);
+    gi_tile_aim(stage, area, extent, offset_x, offset_y);
+    for (int y = 0; y < extent->height; y += GI_BLOCK_SIDE) {
+        for (int x = 0; x < extent->width; x += GI_BLOCK_SIDE) {
+            if (gi_tile_trace_block(stage, extent, x, y) == 0) return;
+            gi_surface_bundle(stage);
         }
     }
     stage->counts->camera_rays += (uint64_t)extent->width * (uint64_t)extent->height;
@@ -202,7 +205,7 @@ static int grid_of(int samples) {
     return n > 1 ? n : 1;
 }
 
-static void add_sample(const Extent *extent, GiTileScratch *scratch, bool first) {
+static void add_sample(const GiTileExtent *extent, GiTileScratch *scratch, bool first) {
     for (int row = 0; row < extent->height; row++) {
         for (int i = row * STRIDE; i < row * STRIDE + extent->width; i++) {
             scratch->sum[i] =
@@ -212,8 +215,8 @@ static void add_sample(const Extent *extent, GiTileScratch *scratch, bool first)
 }
 
 /* The tile's pixels to where they are wanted; x and y as for gi_tile_draw. False: no memory. */
-static bool store(
-    const GiStage *stage, const GiRenderArea *area, const Extent *extent, int x, int y, int count) {
+static bool store(const GiStage *stage, const GiRenderArea *area, const GiTileExtent *extent, int x,
+    int y, int count) {
     const GiTileScratch *scratch = stage->scratch;
     const GiRenderTarget *target = stage->target;
     const GiScene *scene = stage->world->scene;
@@ -237,7 +240,7 @@ static bool store(
 bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
     const GiRenderTarget *target, GiTileScratch *scratch, GiRenderCounts *counts,
     const GiTileControl *control) {
-    Extent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
+    GiTileExtent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
     if (extent.width > side) extent.width = side;
     if (extent.height > side) extent.height = side;
     GiStage stage = {
