@@ -559,10 +559,12 @@ static inline void u_fill(uint32_t *to, uint32_t value) {
 /* ---------------------------------------------------------------- bits, memory */
 
 #if defined(__GNUC__)
+#define NOINLINE __attribute__((noinline))
 static inline void prefetch(const void *p) { __builtin_prefetch(p); }
 static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
 static inline int bit_count(unsigned bits) { return __builtin_popcount(bits); }
 #else
+#define NOINLINE
 static inline void prefetch(const void *p) { (void)p; }
 static inline int lowest_bit(unsigned bits) {
     int index = 0;
