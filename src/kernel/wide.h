@@ -92,24 +92,42 @@ static inline unsigned f_less_equal(F a, F b) { return a <= b; }
 #endif
 
 /* The smallest and the largest of count numbers, a multiple of sixteen. */
+#if defined(GI_IS_AVX512)
+static inline float f_lowest(const float *p, int count) {
+    __m512 least = _mm512_loadu_ps(p);
+    for (int i = 16; i < count; i += 16) least = _mm512_min_ps(_mm512_loadu_ps(p + i), least);
+    return _mm512_reduce_min_ps(least);
+}
+static inline float f_highest(const float *p, int count) {
+    __m512 most = _mm512_loadu_ps(p);
+    for (int i = 16; i < count; i += 16) most = _mm512_max_ps(_mm512_loadu_ps(p + i), most);
+    return _mm512_reduce_max_ps(most);
+}
+#else
+/* Lane by lane, halves against each other. */
 static inline float f_lowest(const float *p, int count) {
     F least = f_load(p);
     for (int i = GI_FLOATS; i < count; i += GI_FLOATS) least = f_min(f_load(p + i), least);
     float lane[GI_FLOATS];
     f_store(lane, least);
-    float result = lane[0];
-    for (int i = 1; i < GI_FLOATS; i++) result = lane[i] < result ? lane[i] : result;
-    return result;
+    for (int half = GI_FLOATS / 2; half > 0; half /= 2) {
+        for (int i = 0; i < half; i++)
+            lane[i] = lane[i + half] < lane[i] ? lane[i + half] : lane[i];
+    }
+    return lane[0];
 }
 static inline float f_highest(const float *p, int count) {
     F most = f_load(p);
     for (int i = GI_FLOATS; i < count; i += GI_FLOATS) most = f_max(f_load(p + i), most);
     float lane[GI_FLOATS];
     f_store(lane, most);
-    float result = lane[0];
-    for (int i = 1; i < GI_FLOATS; i++) result = lane[i] > result ? lane[i] : result;
-    return result;
+    for (int half = GI_FLOATS / 2; half > 0; half /= 2) {
+        for (int i = 0; i < half; i++)
+            lane[i] = lane[i + half] > lane[i] ? lane[i + half] : lane[i];
+    }
+    return lane[0];
 }
+#endif
 
 /* Sixteen numbers against one: bits of those where x <= p[i], and where p[i] <= x. */
 #if defined(GI_IS_AVX512)
