@@ -48,6 +48,28 @@
 #include <immintrin.h>
 #endif
 
+/* ---------------------------------------------------------------- bits, memory */
+
+#if defined(__GNUC__)
+#define NOINLINE __attribute__((noinline))
+static inline void prefetch(const void *p) { __builtin_prefetch(p); }
+static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
+static inline int bit_count(unsigned bits) { return __builtin_popcount(bits); }
+#else
+#define NOINLINE
+static inline void prefetch(const void *p) { (void)p; }
+static inline int lowest_bit(unsigned bits) {
+    int index = 0;
+    while (!(bits >> index & 1)) index++;
+    return index;
+}
+static inline int bit_count(unsigned bits) {
+    int count = 0;
+    for (; bits != 0; bits &= bits - 1) count++;
+    return count;
+}
+#endif
+
 /* ---------------------------------------------------------------- floats: culling */
 
 #if defined(GI_IS_AVX512) || defined(GI_IS_AVX2)
@@ -197,25 +219,6 @@ static inline unsigned sixteen_equal(uint32_t value, const uint32_t p[16]) {
     unsigned bits = 0;
     for (int i = 0; i < 16; i++) bits |= (unsigned)(p[i] == value) << i;
     return bits;
-#endif
-}
-
-/* Writes base + i for every bit i of sixteen, in order, and returns how many. There must be room
- * for sixteen. */
-static inline int sixteen_append(uint32_t *to, unsigned bits, uint32_t base) {
-#if defined(GI_IS_AVX512)
-    const __m512i count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-    __m512i all = _mm512_add_epi32(count, _mm512_set1_epi32((int)base));
-    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, all));
-    return _mm_popcnt_u32(bits);
-#else
-    int count = 0;
-    for (; bits != 0; bits &= bits - 1) {
-        uint32_t i = 0;
-        while (!(bits >> i & 1)) i++;
-        to[count++] = base + i;
-    }
-    return count;
 #endif
 }
 
@@ -376,6 +379,24 @@ static inline void sixteen_gamma(const uint32_t *table, const float p[16], uint8
     for (int i = 0; i < 16; i++) to[i] = gi_gamma_byte(table, clamped[i]);
 }
 #endif
+
+/* Writes base + i for every bit i of sixteen, in order, and returns how many. There must be room
+ * for sixteen. */
+static inline int sixteen_append(uint32_t *to, unsigned bits, uint32_t base) {
+#if defined(GI_IS_AVX512)
+    const __m512i count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    __m512i all = _mm512_add_epi32(count, _mm512_set1_epi32((int)base));
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, all));
+    return _mm_popcnt_u32(bits);
+#elif defined(GI_HAS_EIGHT)
+    int count = eight_append_indices(to, base, bits & 0xff);
+    return count + eight_append_indices(to + count, base + 8, bits >> 8);
+#else
+    int count = 0;
+    for (; bits != 0; bits &= bits - 1) to[count++] = base + (uint32_t)lowest_bit(bits);
+    return count;
+#endif
+}
 
 /* ---------------------------------------------------------------- doubles: deciding */
 
@@ -573,25 +594,3 @@ static inline void u_copy(uint32_t *to, const uint32_t *from) {
 static inline void u_fill(uint32_t *to, uint32_t value) {
     for (int i = 0; i < GI_DOUBLES; i++) to[i] = value;
 }
-
-/* ---------------------------------------------------------------- bits, memory */
-
-#if defined(__GNUC__)
-#define NOINLINE __attribute__((noinline))
-static inline void prefetch(const void *p) { __builtin_prefetch(p); }
-static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
-static inline int bit_count(unsigned bits) { return __builtin_popcount(bits); }
-#else
-#define NOINLINE
-static inline void prefetch(const void *p) { (void)p; }
-static inline int lowest_bit(unsigned bits) {
-    int index = 0;
-    while (!(bits >> index & 1)) index++;
-    return index;
-}
-static inline int bit_count(unsigned bits) {
-    int count = 0;
-    for (; bits != 0; bits &= bits - 1) count++;
-    return count;
-}
-#endif
