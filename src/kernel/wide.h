@@ -484,6 +484,15 @@ static inline R r_gather(const double *p, const uint32_t *index, int stride) {
     __m128i all = _mm_loadu_si128((const __m128i *)(const void *)index);
     return _mm256_i32gather_pd(p, _mm_mullo_epi32(all, _mm_set1_epi32(stride)), 8);
 }
+static inline void u_gather(uint32_t *to, const uint32_t *p, const uint32_t *index) {
+    __m128i all = _mm_loadu_si128((const __m128i *)(const void *)index);
+    _mm_storeu_si128(
+        (__m128i *)(void *)to, _mm_i32gather_epi32((const int *)(const void *)p, all, 4));
+}
+static inline void u_widen(uint32_t *to, const uint16_t *from) {
+    __m128i all = _mm_loadl_epi64((const __m128i *)(const void *)from);
+    _mm_storeu_si128((__m128i *)(void *)to, _mm_cvtepu16_epi32(all));
+}
 #elif defined(GI_IS_SSE2)
 enum { GI_DOUBLES = 2 };
 #define R                  __m128d
@@ -576,12 +585,14 @@ static inline void u_append_indices(uint32_t *to, unsigned bits, uint32_t base) 
         to += bits >> i & 1;
     }
 }
+#ifndef GI_IS_AVX2
 static inline void u_gather(uint32_t *to, const uint32_t *p, const uint32_t *index) {
     for (int i = 0; i < GI_DOUBLES; i++) to[i] = p[index[i]];
 }
 static inline void u_widen(uint32_t *to, const uint16_t *from) {
     for (int i = 0; i < GI_DOUBLES; i++) to[i] = from[i];
 }
+#endif
 #endif
 
 /* As R_SELECT, of what comparisons give. */
