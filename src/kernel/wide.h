@@ -473,8 +473,9 @@ enum { GI_DOUBLES = 4 };
 #define R_ABS(a)           _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
 static inline unsigned m_bits(M m) { return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(m)); }
 static inline M m_from_bytes(const uint8_t *p) {
-    return _mm256_set_epi64x(
-        -(long long)p[3], -(long long)p[2], -(long long)p[1], -(long long)p[0]);
+    int all;
+    memcpy(&all, p, sizeof all);
+    return _mm256_sub_epi64(_mm256_setzero_si256(), _mm256_cvtepu8_epi64(_mm_cvtsi32_si128(all)));
 }
 static inline R r_load(const double *p) { return _mm256_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm256_storeu_pd(p, a); }
