@@ -38,6 +38,5 @@ const GiKernel GI_KERNEL(kernel) = {
     GI_KERNEL(light),
     GI_KERNEL(shadows),
     GI_KERNEL(add),
-    GI_KERNEL(regroup_init),
     GI_KERNEL(regroup),
 };

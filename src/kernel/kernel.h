@@ -31,19 +31,11 @@ typedef struct GiTraceHit {
     uint32_t instance; /* that the shape was met in, or GI_SHAPE_NONE */
 } GiTraceHit;
 
-/* Up to 1024 rays whose lines pass through one point, traced together. Neighbours in the arrays,
- * sixteen at a time, should be neighbours in space. Two uses:
- *     closest   the rays start at the apex (camera rays)
- *     any       the rays end there: origin + direction is the apex, t_max at most 1 (shadow rays
- *               of a point light)
- * In: everything up to skip_instance. Out: shape (GI_SHAPE_NONE: nothing met) and, for closest,
- * instance and t. */
-enum {
-    GI_BUNDLE_SIZE = 1024,
-    GI_PACKET_SIZE = 16,
-    GI_PACKET_COUNT = GI_BUNDLE_SIZE / GI_PACKET_SIZE
-};
-
+/* Up to GI_BUNDLE_SIZE rays whose lines pass through one point, traced together. Neighbours in the
+ * arrays, GI_PACKET_SIZE at a time, should be neighbours in space. Two uses: closest   the rays
+ * start at the apex (camera rays) any       the rays end there: origin + direction is the apex,
+ * t_max at most 1 (shadow rays of a point light) In: everything up to skip_instance. Out: shape
+ * (GI_SHAPE_NONE: nothing met) and, for closest, instance and t. */
 typedef struct GiBundle {
     _Alignas(64) double ox[GI_BUNDLE_SIZE];
     double oy[GI_BUNDLE_SIZE], oz[GI_BUNDLE_SIZE];
@@ -91,9 +83,10 @@ typedef struct GiKernel {
         const GiPoints *points, const GiLit *lit, const uint16_t *order, GiBundle *bundle);
     /* Adds the lit that arrive to the colors of their points' pixels, all different ones. */
     void (*add)(const GiPoints *points, const GiLit *lit, GiVec *color);
-    void (*regroup_init)(GiRegroup *regroup); /* once */
-    /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT. */
-    void (*regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z, int count);
+    /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT; leaves: of the scene's
+     * trees. */
+    void (*regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z, int count,
+        double leaves);
 } GiKernel;
 
 /* The kernels this build has and this machine can run, fastest first; null at the end. */

@@ -89,24 +89,32 @@ static inline F f_fused(F a, F b, F c) { return a * b + c; }
 static inline unsigned f_less_equal(F a, F b) { return a <= b; }
 #endif
 
-/* The smallest and the largest of count numbers, a multiple of sixteen. */
-static inline float f_lowest(const float *p, int count) {
-    F least = f_load(p);
-    for (int i = GI_FLOATS; i < count; i += GI_FLOATS) least = f_min(f_load(p + i), least);
+/* The smallest and the largest of the lanes. */
+static inline float f_least(F a) {
     float lane[GI_FLOATS];
-    f_store(lane, least);
+    f_store(lane, a);
     float result = lane[0];
     for (int i = 1; i < GI_FLOATS; i++) result = lane[i] < result ? lane[i] : result;
     return result;
 }
-static inline float f_highest(const float *p, int count) {
-    F most = f_load(p);
-    for (int i = GI_FLOATS; i < count; i += GI_FLOATS) most = f_max(f_load(p + i), most);
+static inline float f_most(F a) {
     float lane[GI_FLOATS];
-    f_store(lane, most);
+    f_store(lane, a);
     float result = lane[0];
     for (int i = 1; i < GI_FLOATS; i++) result = lane[i] > result ? lane[i] : result;
     return result;
+}
+
+/* The same of count numbers, a multiple of sixteen. */
+static inline float f_lowest(const float *p, int count) {
+    F least = f_load(p);
+    for (int i = GI_FLOATS; i < count; i += GI_FLOATS) least = f_min(f_load(p + i), least);
+    return f_least(least);
+}
+static inline float f_highest(const float *p, int count) {
+    F most = f_load(p);
+    for (int i = GI_FLOATS; i < count; i += GI_FLOATS) most = f_max(f_load(p + i), most);
+    return f_most(most);
 }
 
 /* Sixteen numbers against one: bits of those where x <= p[i], and where p[i] <= x. */

@@ -70,15 +70,17 @@ static void trace_lit(const GiStage *stage, GiVec light) {
     GiBundle *bundle = &scratch->bundle;
     const GiPoints *points = &scratch->points;
     GiLit *lit = &scratch->lit;
-    stage->world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count);
+    const GiWorld *world = stage->world;
+    double leaves = (double)world->leaf_count * (1 + (double)world->spread.instances.count);
+    world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count, leaves);
     for (int begin = 0; begin < lit->count; begin += GI_BUNDLE_SIZE) {
         if (gi_stage_stopped(stage)) return;
         const uint16_t *order = scratch->regroup.order + begin;
         bundle->count = lit->count - begin < GI_BUNDLE_SIZE ? lit->count - begin : GI_BUNDLE_SIZE;
         bundle->apex = light;
-        bundle->side = gi_vec(0, 0, 0);
-        stage->world->kernel->shadows(points, lit, order, bundle);
-        stage->world->kernel->bundle_any(&stage->world->trace, bundle);
+        bundle->side = scratch->regroup.side[begin / GI_BUNDLE_SIZE];
+        world->kernel->shadows(points, lit, order, bundle);
+        world->kernel->bundle_any(&world->trace, bundle);
         for (int i = 0; i < bundle->count; i++) {
             lit->arrives[order[i]] = bundle->shape[i] == GI_SHAPE_NONE;
         }

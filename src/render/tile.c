@@ -31,7 +31,6 @@ GiTileScratch *gi_tile_scratch_create(const GiWorld *world, const GiRenderTarget
         return NULL;
     }
     for (size_t i = 0; i < shader_count; i++) scratch->head[i] = GI_NONE;
-    world->kernel->regroup_init(&scratch->regroup);
     return scratch;
 }
 
