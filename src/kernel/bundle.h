@@ -353,6 +353,30 @@ static inline void tile_leaf(Tile *tile, uint32_t child) {
     if (count >= TEST_BATCH) tile_flush(tile);
 }
 
+/* Leaves of triangles wait for each other while their corners are on the way from memory. */
+enum { LEAF_BATCH = 8 };
+typedef struct Leaves {
+    int count;
+    StackEntry entry[LEAF_BATCH];
+} Leaves;
+
+static inline void tile_leaves(Tile *tile, Leaves *leaves) {
+    for (int i = 0; i < leaves->count; i++) {
+        if (leaves->entry[i].enter <= tile->frustum.far) tile_leaf(tile, leaves->entry[i].child);
+    }
+    leaves->count = 0;
+}
+
+static inline void tile_put_off(Tile *tile, StackEntry entry, Leaves *leaves) {
+    const GiTriangles *triangles = &tile->shapes->triangles;
+    const uint32_t(*rows)[3] = triangles->corners + gi_child_first(entry.child);
+    for (uint32_t i = 0; i < gi_child_count(entry.child); i++) {
+        for (int k = 0; k < 3; k++) prefetch(triangles->positions[rows[i][k]]);
+    }
+    leaves->entry[leaves->count++] = entry;
+    if (leaves->count == LEAF_BATCH) tile_leaves(tile, leaves);
+}
+
 static inline void tile_walk(Tile *tile) {
     const GiTree *tree = tile->tree;
     uint32_t packet_count = (uint32_t)(tile->bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
@@ -363,6 +387,7 @@ static inline void tile_walk(Tile *tile) {
         tile_flush(tile);
     }
     StackEntry stack[STACK_LIMIT];
+    Leaves leaves = {.count = 0};
     int count = 0;
     if (tree->root != GI_CHILD_NONE) stack[count++] = (StackEntry){tree->root, -INFINITY};
     while (count > 0 && !tile->stopped) {
@@ -376,10 +401,11 @@ static inline void tile_walk(Tile *tile) {
             count = push_children(tree, tile->shapes, stack, count, node->child, bits, enter);
             break;
         }
-        case GI_CHILD_TRIANGLES: tile_leaf(tile, top.child); break;
+        case GI_CHILD_TRIANGLES: tile_put_off(tile, top, &leaves); break;
         default: tile_block(tile, top.child); break;
         }
     }
+    tile_leaves(tile, &leaves);
     tile_flush(tile);
 }
 
