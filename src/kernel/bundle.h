@@ -66,14 +66,16 @@ static inline bool any_of(unsigned bits, int j) {
     return (bits >> j & ((1u << GI_DOUBLES) - 1)) != 0;
 }
 
+/* How far the rays of a packet still look. */
 static inline void packet_refresh_far(Tile *tile, int packet) {
     const GiBundle *bundle = tile->bundle;
-    R far = R_OF(-INFINITY);
+    const R scale = R_OF(tile->scale * (1 + GI_WIDER));
+    float *far = tile->far + packet * GI_PACKET_SIZE;
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         int i = packet * GI_PACKET_SIZE + j;
-        far = R_MAX(far, r_load(bundle->t + i) * r_load(bundle->depth + i));
+        r_store_floats(far + j, r_load(bundle->t + i) * r_load(bundle->depth + i) * scale);
     }
-    tile->packets.far[packet] = (float)(r_maximum(far) * tile->scale) * (1 + GI_WIDER);
+    tile->packets.far[packet] = f_highest(far, GI_PACKET_SIZE);
 }
 
 /* These rays of a packet look for nothing any more. Returns whether that was its last. */
@@ -106,7 +108,7 @@ static inline bool test_closest(Tile *tile, GiShapeRef ref, int packet, unsigned
         if (ties != 0) resolve_ties(tile, ref, i, ties);
     }
     if (changed == 0) return false;
-    packet_refresh_far(tile, packet);
+    tile->nearer[packet / 32] |= 1u << packet % 32;
     return true;
 }
 
@@ -211,7 +213,7 @@ static inline bool bring_home(
         bundle->instance[i] = inner->instance[k];
     }
     if (tile->any) return packet_stop(tile, packet, met);
-    if (met != 0) packet_refresh_far(tile, packet);
+    if (met != 0) tile->nearer[packet / 32] |= 1u << packet % 32;
     return met != 0;
 }
 
@@ -280,6 +282,12 @@ static inline void tile_flush(Tile *tile) {
     tile_count(tile, tile->test_count);
     tile->test_count = 0;
     if (changed && tile->any) tile_enclose(tile);
+    for (int k = 0; k < GI_PACKET_COUNT; k += 32) {
+        for (unsigned rest = tile->nearer[k / 32]; rest != 0; rest &= rest - 1) {
+            packet_refresh_far(tile, k + lowest_bit(rest));
+        }
+        tile->nearer[k / 32] = 0;
+    }
     if (changed && !tile->any) tile_refresh_far(tile);
 }
 
@@ -446,6 +454,7 @@ static inline void bundle_run(Tile *tile) {
     tile->scale = tile->tree->scale;
     tile->test_count = tile->tests_made = 0;
     tile->stopped = false;
+    for (int i = 0; i < GI_PACKET_COUNT / 32; i++) tile->nearer[i] = 0;
     for (int i = 0; i < GI_BUNDLE_SIZE / 32; i++) tile->inverse_known[i] = 0;
     int end = (bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE * GI_PACKET_SIZE;
     for (int i = 0; i < end; i++) bundle->shape[i] = bundle->instance[i] = GI_SHAPE_NONE;

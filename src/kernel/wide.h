@@ -90,20 +90,23 @@ static inline unsigned f_less_equal(F a, F b) { return a <= b; }
 #endif
 
 /* The smallest and the largest of the lanes. */
-static inline float f_least(F a) {
-    float lane[GI_FLOATS];
-    f_store(lane, a);
-    float result = lane[0];
-    for (int i = 1; i < GI_FLOATS; i++) result = lane[i] < result ? lane[i] : result;
-    return result;
-}
-static inline float f_most(F a) {
-    float lane[GI_FLOATS];
-    f_store(lane, a);
-    float result = lane[0];
-    for (int i = 1; i < GI_FLOATS; i++) result = lane[i] > result ? lane[i] : result;
-    return result;
-}
+#if defined(GI_IS_PORTABLE)
+static inline float f_least(F a) { return a; }
+static inline float f_most(F a) { return a; }
+#else
+#if defined(GI_IS_SSE2)
+#define F_FOLD(op, a) (a)
+#else
+#define F_FOLD(op, a) op(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1))
+#endif
+#define F_REDUCE(op, a)                                                                            \
+    __m128 four = F_FOLD(op, a), two = op(four, _mm_movehl_ps(four, four));                        \
+    return _mm_cvtss_f32(op(two, _mm_shuffle_ps(two, two, 1)))
+static inline float f_least(F a) { F_REDUCE(_mm_min_ps, a); }
+static inline float f_most(F a) { F_REDUCE(_mm_max_ps, a); }
+#undef F_REDUCE
+#undef F_FOLD
+#endif
 
 /* The same of count numbers, a multiple of sixteen. */
 static inline float f_lowest(const float *p, int count) {
