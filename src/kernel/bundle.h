@@ -86,17 +86,25 @@ static inline bool packet_stop(Tile *tile, int packet, unsigned rays) {
     return true;
 }
 
+/* Where the rays from i on meet the shape; corners: of a triangle. */
+static inline M tile_meets(Tile *tile, GiShapeRef ref, R corners[3][3], int i, R *t) {
+    const GiBundle *bundle = tile->bundle;
+    gi_wide_Ray ray = tile_ray(tile, ref, i);
+    R t_min = r_load(bundle->t_min + i), t_max = r_load(bundle->t_max + i);
+    if (corners != NULL) return gi_wide_triangle_at(corners, &ray, t_min, t_max, t);
+    return gi_wide_shape(tile->shapes, ref, &ray, t_min, t_max, t);
+}
+
 /* One shape against those rays of a packet whose bits are set. Returns whether anything changed. */
-static inline bool test_closest(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
+static inline bool test_closest(
+    Tile *tile, GiShapeRef ref, R corners[3][3], int packet, unsigned rays) {
     GiBundle *bundle = tile->bundle;
     unsigned changed = 0;
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
-        gi_wide_Ray ray = tile_ray(tile, ref, i);
         R t, best = r_load(bundle->t + i);
-        M hit = gi_wide_shape(
-            tile->shapes, ref, &ray, r_load(bundle->t_min + i), r_load(bundle->t_max + i), &t);
+        M hit = tile_meets(tile, ref, corners, i, &t);
         M nearer = hit & R_LESS(t, best);
         unsigned bits = m_bits(nearer), ties = m_bits(hit & R_EQUAL(t, best));
         if (bits != 0) {
@@ -112,7 +120,8 @@ static inline bool test_closest(Tile *tile, GiShapeRef ref, int packet, unsigned
     return true;
 }
 
-static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
+static inline bool test_any(
+    Tile *tile, GiShapeRef ref, R corners[3][3], int packet, unsigned rays) {
     GiBundle *bundle = tile->bundle;
     unsigned stopped = 0;
     unsigned skip = sixteen_equal(ref.bits, bundle->skip + packet * GI_PACKET_SIZE);
@@ -123,10 +132,8 @@ static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned ray
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
-        gi_wide_Ray ray = tile_ray(tile, ref, i);
         R t;
-        M hit = gi_wide_shape(
-            tile->shapes, ref, &ray, r_load(bundle->t_min + i), r_load(bundle->t_max + i), &t);
+        M hit = tile_meets(tile, ref, corners, i, &t);
         unsigned bits = m_bits(hit) & rays >> j;
         u_store_where(bundle->shape + i, bits, ref.bits);
         stopped |= bits << j;
@@ -135,7 +142,14 @@ static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned ray
 }
 
 static inline bool tile_test(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
-    return tile->any ? test_any(tile, ref, packet, rays) : test_closest(tile, ref, packet, rays);
+    if (gi_shape_kind(ref) == GI_SHAPE_TRIANGLE) {
+        R corners[3][3];
+        gi_wide_corners(&tile->shapes->triangles, gi_shape_index(ref), corners);
+        return tile->any ? test_any(tile, ref, corners, packet, rays)
+                         : test_closest(tile, ref, corners, packet, rays);
+    }
+    return tile->any ? test_any(tile, ref, NULL, packet, rays)
+                     : test_closest(tile, ref, NULL, packet, rays);
 }
 
 /* ---------------------------------------------------------------- instances */
