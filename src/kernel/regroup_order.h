@@ -217,10 +217,9 @@ static Turn pack(
     const Turn turn = turn_of(a, b, count);
     Extent x, y;
     turn_points(&turn, a, b, count, regroup->x, regroup->y, &x, &y);
-    int groups = (count + group - 1) / group;
-    int slabs = (int)(sqrtf((float)groups * turn.aspect) + 0.5f);
-    slabs = slabs < groups ? slabs : groups;
-    slabs = slabs < SLABS ? slabs : SLABS;
+    int groups = (count + group - 1) / group, most = groups < SLABS ? groups : SLABS;
+    float wanted = sqrtf((float)groups * turn.aspect) + 0.5f;
+    int slabs = wanted < (float)most ? (int)wanted : most;
     /* Slabs of equal numbers, up to a bucket. */
     Counts counts;
     find_buckets(regroup->x, count, x, BUCKETS, across);
