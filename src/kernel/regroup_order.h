@@ -242,7 +242,7 @@ static Turn pack(
 
 static void pack_bundle(
     GiRegroup *regroup, const Axes *axes, const uint16_t *rays, int count, int begin) {
-    float a[GI_BUNDLE_SIZE + 16], b[GI_BUNDLE_SIZE + 16];
+    float a[GI_BUNDLE_SIZE + 16] = {0}, b[GI_BUNDLE_SIZE + 16] = {0};
     uint16_t order[GI_BUNDLE_SIZE];
     for (int i = 0; i < count; i++) {
         a[i] = regroup->a[rays[i]];
