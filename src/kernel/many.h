@@ -99,11 +99,11 @@ typedef struct Wave {
     Candidates candidates;
     const GiTrace *trace;
     const GiTraceRay *rays;
-    const uint32_t (*corners)[3]; /* of triangles; at least eight */
-    uint32_t last_eight;          /* the first of the last eight */
-    uint32_t few[8][3];           /* when there are less */
-    const char *base[4];          /* of the scene's own tree */
-    bool any, has_instances;
+    const uint32_t (*corners)[3];    /* of triangles; at least eight */
+    uint32_t last_eight;             /* the first of the last eight */
+    uint32_t few[8][3];              /* when there are less */
+    const char *base[4];             /* of the scene's own tree */
+    bool any, has_instances, has[4]; /* kinds of children */
 } Wave;
 
 /* What a line's point is off, relative to the numbers it is made of, sixteenfold for the products
@@ -556,7 +556,12 @@ static inline void wave_init(Wave *wave, const GiTrace *trace, const GiTraceRay 
     wave->trace = trace;
     wave->rays = rays;
     wave->any = any;
+    const GiTree *tree = trace->tree;
     wave->has_instances = shapes->instances != NULL;
+    wave->has[GI_CHILD_NODE] = true;
+    wave->has[GI_CHILD_TRIANGLES] = tree->has_triangles || wave->has_instances;
+    wave->has[GI_CHILD_BOXES] = tree->box_block_count > 0 || wave->has_instances;
+    wave->has[GI_CHILD_SPHERES] = tree->sphere_block_count > 0 || wave->has_instances;
     uint32_t triangle_count = 0;
     if (shapes->mesh_count > 0) {
         const GiMesh *last = &shapes->meshes[shapes->mesh_count - 1];
@@ -599,6 +604,15 @@ static inline List wave_list(const Wave *wave, uint32_t mask, uint32_t value) {
     return list;
 }
 
+/* Those at a child of the tree. */
+static inline List list_kind(const Wave *wave, GiChildKind kind) {
+    /* With one bit more spheres are not what else looks like them. */
+    const uint32_t mask = kind == GI_CHILD_SPHERES ? CHILD_INSTANCE : 0xc0000000u;
+    List list;
+    list.count = 0;
+    return wave->has[kind] ? wave_list(wave, mask, gi_child(kind, 0)) : list;
+}
+
 static void wave_cross(Wave *wave) {
     const List list = wave_list(wave, CHILD_INSTANCE, CHILD_INSTANCE);
     for (int i = 0; i < list.count; i++) walker_cross(wave, list.walker[i]);
@@ -606,11 +620,9 @@ static void wave_cross(Wave *wave) {
 
 /* All walkers take a step. */
 static inline void wave_round(Wave *wave) {
-    const uint32_t kind = 0xc0000000u;
-    const List nodes = wave_list(wave, kind, gi_child(GI_CHILD_NODE, 0));
-    const List triangles = wave_list(wave, kind, gi_child(GI_CHILD_TRIANGLES, 0));
-    const List boxes = wave_list(wave, kind, gi_child(GI_CHILD_BOXES, 0));
-    const List spheres = wave_list(wave, CHILD_INSTANCE, gi_child(GI_CHILD_SPHERES, 0));
+    const List nodes = list_kind(wave, GI_CHILD_NODE),
+               triangles = list_kind(wave, GI_CHILD_TRIANGLES);
+    const List boxes = list_kind(wave, GI_CHILD_BOXES), spheres = list_kind(wave, GI_CHILD_SPHERES);
     for (int i = 0; i < nodes.count; i++) {
         uint32_t number = nodes.walker[i];
         prefetch_lines(
