@@ -5,10 +5,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+const char *message_program = "glint-bench";
+
 void message_fail(const char *format, ...) {
     va_list arguments;
     fflush(stdout);
-    fputs("glint-bench: ", stderr);
+    fprintf(stderr, "%s: ", message_program);
     va_start(arguments, format);
     vfprintf(stderr, format, arguments);
     va_end(arguments);

@@ -4,6 +4,9 @@
 
 #include <stddef.h>
 
+/* "glint-bench", unless the program says otherwise. */
+extern const char *message_program;
+
 /* "glint-bench: ..." on standard error, then the program ends with 1. */
 _Noreturn void message_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * One scene at a time: create, load, commit, render, save, destroy. A scene that fails is reported,
- * leaves no picture, and does not stop the others; an interrupt stops all. */
+ * One scene at a time: create, load, commit, render and save, destroy. A scene that fails is
+ * reported, leaves no picture, and does not stop the others; an interrupt stops all. */
 #define _XOPEN_SOURCE 700
 #include "render_command.h"
 
@@ -196,7 +196,6 @@ static bool allocate_pixels(Drawing *drawing) {
         return false;
     drawing->pixels = malloc((size_t)size);
     if (drawing->pixels == NULL) return false;
-    if (drawing->options->layers == 0) return true;
     GlintSceneInfo info;
     glint_scene_info(drawing->scene, &info);
     if (!cli_layers_init(&drawing->layers, drawing->options->layers, (size_t)pixel_count,
@@ -207,18 +206,35 @@ static bool allocate_pixels(Drawing *drawing) {
     return true;
 }
 
-static GlintStatus save(Drawing *drawing) {
-    double began = cli_clock();
+/* A picture with layers is drawn several times before it is written. */
+static GlintStatus draw_layers(Drawing *drawing, const GlintSaveDesc *desc) {
+    CliLayers *layers = &drawing->layers;
+    GlintError *error = &drawing->error;
+    if (!allocate_pixels(drawing)) {
+        snprintf(error->message, sizeof error->message, "not enough memory for the picture");
+        return GLINT_ERROR_MEMORY;
+    }
+    GlintStatus status = glint_render(drawing->scene, &drawing->area, drawing->pixels, error);
+    if (status == GLINT_OK) {
+        status = cli_layers_render(layers, drawing->scene, &drawing->area, error);
+    }
+    if (status != GLINT_OK) return status;
     GlintImage image = {.width = drawing->stats.crop_width,
         .height = drawing->stats.crop_height,
         .pixels = drawing->pixels};
-    GlintSaveDesc desc = glint_save_desc_default();
-    desc.title = cli_path_base(cli_job_name(drawing->job));
-    desc.thread_count = drawing->options->thread_count;
-    desc.monitor = &drawing->monitor;
-    GlintStatus status =
-        cli_layers_save(&drawing->layers, &image, drawing->job->picture, &desc, &drawing->error);
+    double began = cli_clock();
+    status = cli_layers_save(layers, &image, drawing->job->picture, desc, error);
     drawing->stats.write_seconds = cli_clock() - began;
+    return status;
+}
+
+static GlintStatus draw_plain(Drawing *drawing, const GlintSaveDesc *desc) {
+    double began = cli_clock();
+    GlintStatus status = glint_render_save(
+        drawing->scene, &drawing->area, drawing->job->picture, desc, &drawing->error);
+    GlintStats stats;
+    glint_scene_stats(drawing->scene, &stats);
+    drawing->stats.write_seconds = cli_clock() - began - stats.trace_seconds;
     return status;
 }
 
@@ -240,19 +256,14 @@ static CliStatus draw(Drawing *drawing) {
     if (refused != CLI_OK) return refused;
     status = glint_scene_commit(drawing->scene, &drawing->monitor, &drawing->error);
     if (status != GLINT_OK) return fail(drawing, status, CLI_INPUT);
-    if (!allocate_pixels(drawing)) {
-        return fail_machine(drawing, GLINT_ERROR_MEMORY, cli_job_name(drawing->job),
-            "not enough memory for the picture");
-    }
-    status = glint_render(drawing->scene, &drawing->area, drawing->pixels, &drawing->error);
-    if (status == GLINT_OK) {
-        status =
-            cli_layers_render(&drawing->layers, drawing->scene, &drawing->area, &drawing->error);
-    }
-    if (status != GLINT_OK) return fail(drawing, status, CLI_INPUT);
-    status = save(drawing);
+    GlintSaveDesc save = glint_save_desc_default();
+    save.title = cli_path_base(cli_job_name(drawing->job));
+    save.thread_count = drawing->options->thread_count;
+    save.monitor = &drawing->monitor;
+    status =
+        drawing->options->layers == 0 ? draw_plain(drawing, &save) : draw_layers(drawing, &save);
     if (status == GLINT_OK) return CLI_OK;
-    if (drawing->error.path[0] == '\0') {
+    if (status == GLINT_ERROR_FILE && drawing->error.path[0] == '\0') {
         snprintf(drawing->error.path, sizeof drawing->error.path, "%s", drawing->job->picture);
     }
     return fail(drawing, status, CLI_MACHINE);

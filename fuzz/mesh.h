@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Feeds bytes to the loader of a mesh format, whole and in small chunks, and checks that both give
- * the same outcome, that a good mesh names nothing that is not there, that memory is bounded by
- * the size of the input, and that none is left. */
+ * Feeds bytes to the loader of a mesh format, whole, in small chunks and to two threads, and checks
+ * that all give the same outcome, that a good mesh names nothing that is not there, that memory is
+ * bounded by the size of the input, and that none is left. */
 #pragma once
 
 #include "mesh/mesh.h"
@@ -65,14 +65,15 @@ static uint32_t check_mesh(const GiMeshStore *store) {
 }
 
 /* A number that stands for the outcome. */
-static uint32_t load(GiMeshFormat format, const uint8_t *data, size_t size, size_t chunk_size) {
+static uint32_t load(
+    GiMeshFormat format, const uint8_t *data, size_t size, size_t chunk_size, int thread_count) {
     GiMemory memory;
     gi_memory_init(&memory, NULL, 0);
     GiMeshStore store = {.meshes = {.count = 0}};
     GiMeshSource source = {.bytes = (const char *)data,
         .size = size,
         .format = format,
-        .thread_count = 1,
+        .thread_count = thread_count,
         .chunk_size = chunk_size};
     GiMeshFault fault = {.line = 0};
     uint32_t mesh, hash;
@@ -96,9 +97,9 @@ static uint32_t load(GiMeshFormat format, const uint8_t *data, size_t size, size
 }
 
 static int fuzz(GiMeshFormat format, const uint8_t *data, size_t size) {
-    uint32_t hash = load(format, data, size, 0);
-    require(hash == load(format, data, size, 1), "the outcome depends on chunks of 1");
-    require(hash == load(format, data, size, 13), "the outcome depends on chunks of 13");
+    uint32_t hash = load(format, data, size, 0, 1);
+    require(hash == load(format, data, size, 1, 1), "the outcome depends on chunks of 1");
+    require(hash == load(format, data, size, 13, 2), "the outcome depends on threads");
     return 0;
 }
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "port/file.h"
 #include "glint_scene.h"
+#include "image/image.h"
 #include "port/machine.h"
 #include "reader/reader.h"
 
@@ -163,7 +164,28 @@ GlintStatus glint_scene_load_stream(GlintScene *scene, GlintReadFn read, void *u
     return load(scene, &source, error);
 }
 
-/* ---------------------------------------------------------------- commit, render, trace */
+/* ---------------------------------------------------------------- commit, render */
+
+/* The pool, with as many workers as `jobs` jobs can keep busy and the scene may have. A thread
+ * takes longer to start than a small scene takes to draw. */
+static GlintStatus need_workers(GlintScene *scene, size_t jobs, GlintError *error) {
+    int size = gi_pool_size(scene->thread_count);
+    if (jobs < (size_t)size) size = (int)jobs;
+    if (scene->pool != NULL && gi_pool_worker_count(scene->pool) >= size) return GLINT_OK;
+    gi_pool_destroy(scene->pool);
+    scene->pool = NULL;
+    GlintStatus status = gi_pool_create(&scene->memory, size, &scene->pool);
+    if (status == GLINT_OK) return status;
+    return gi_error_set(error, status, "%s", glint_status_text(status));
+}
+
+/* How many can help to build the tree. */
+static size_t build_jobs(const GiScene *model) {
+    enum { FEW = 1024 };
+    bool small =
+        model->shape_count < FEW && model->groups.count == 0 && model->meshes.meshes.count == 0;
+    return small ? 1 : SIZE_MAX;
+}
 
 GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, GlintError *error) {
     if (scene == NULL) return ARGUMENT(error, "scene is null");
@@ -177,19 +199,17 @@ GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, G
             scene->dialect != GLINT_DIALECT_AUTO ? scene->dialect : GLINT_DIALECT_GLINT;
     }
     double start = gi_machine_seconds();
-    GlintStatus status = gi_pool_create(&scene->memory, scene->thread_count, &scene->pool);
-    if (status != GLINT_OK) {
-        scene->broken = true;
-        return gi_error_set(error, status, "%s", glint_status_text(status));
+    GlintStatus status = need_workers(scene, build_jobs(model), error);
+    if (status == GLINT_OK) {
+        status = gi_world_commit(&scene->world, model, scene->kernel, scene->pool, monitor, error);
     }
-    status = gi_world_commit(&scene->world, model, scene->kernel, scene->pool, monitor, error);
     scene->broken = status != GLINT_OK;
     if (status != GLINT_OK) return status;
     scene->committed = true;
     GlintStats *stats = &scene->stats;
     const GiWorld *world = &scene->world;
     stats->build_seconds = gi_machine_seconds() - start;
-    stats->thread_count = gi_pool_worker_count(scene->pool);
+    stats->thread_count = gi_pool_size(scene->thread_count);
     stats->primitive_count = world->primitive_count;
     stats->node_count = world->node_count;
     stats->leaf_count = world->leaf_count;
@@ -220,28 +240,27 @@ void glint_scene_stats(const GlintScene *scene, GlintStats *stats) {
 
 GlintRenderDesc glint_render_desc_default(void) { return (GlintRenderDesc){.cookie = GI_COOKIE}; }
 
-GlintStatus glint_render(
-    GlintScene *scene, const GlintRenderDesc *desc, float *pixels, GlintError *error) {
-    if (scene == NULL || desc == NULL || pixels == NULL) {
-        return ARGUMENT(error, "scene, desc or pixels is null");
-    }
+/* What desc asks for, and the workers for it; color and png are left to the caller. */
+static GlintStatus plan_render(GlintScene *scene, const GlintRenderDesc *desc, GiRenderArea *area,
+    GiRenderTarget *target, GlintError *error) {
+    if (scene == NULL || desc == NULL) return ARGUMENT(error, "scene or desc is null");
     if (desc->cookie != GI_COOKIE) return ARGUMENT(error, NO_DEFAULT("glint_render_desc_default"));
     if (!scene->committed) return ARGUMENT(error, "the scene is not committed");
-    GiRenderArea area = {
+    *area = (GiRenderArea){
         .width = desc->width != 0 ? desc->width : scene->model.width,
         .height = desc->height != 0 ? desc->height : scene->model.height,
         .x = desc->crop_x,
         .y = desc->crop_y,
     };
-    const char *fault = gi_scene_check_image_size(area.width, area.height);
+    const char *fault = gi_scene_check_image_size(area->width, area->height);
     if (fault != NULL) return ARGUMENT(error, "%s", fault);
-    if (area.x < 0 || area.y < 0 || area.x >= area.width || area.y >= area.height) {
+    if (area->x < 0 || area->y < 0 || area->x >= area->width || area->y >= area->height) {
         return ARGUMENT(error, "the corner of the crop lies outside of the picture");
     }
-    area.crop_width = desc->crop_width != 0 ? desc->crop_width : area.width - area.x;
-    area.crop_height = desc->crop_height != 0 ? desc->crop_height : area.height - area.y;
-    if (area.crop_width < 1 || area.crop_width > area.width - area.x || area.crop_height < 1 ||
-        area.crop_height > area.height - area.y) {
+    area->crop_width = desc->crop_width != 0 ? desc->crop_width : area->width - area->x;
+    area->crop_height = desc->crop_height != 0 ? desc->crop_height : area->height - area->y;
+    if (area->crop_width < 1 || area->crop_width > area->width - area->x || area->crop_height < 1 ||
+        area->crop_height > area->height - area->y) {
         return ARGUMENT(error, "the crop reaches outside of the picture");
     }
     if (desc->samples < 0 || desc->samples > GI_SAMPLES_LIMIT) {
@@ -253,11 +272,8 @@ GlintStatus glint_render(
     if (desc->light < -1 || desc->light > (int)scene->model.lights.count) {
         return ARGUMENT(error, "there is no such light");
     }
-    double start = gi_machine_seconds();
-    GiRenderCounts counts = {0};
-    const GiRenderTarget target = {
+    *target = (GiRenderTarget){
         .samples = desc->samples != 0 ? desc->samples : scene->model.samples,
-        .color = pixels,
         .depth = desc->depth,
         .normal = desc->normal,
         .albedo = desc->albedo,
@@ -265,8 +281,16 @@ GlintStatus glint_render(
         .light = desc->light,
         .sampling = desc->sampling,
     };
-    GlintStatus status =
-        gi_render(&scene->world, scene->pool, &area, desc->monitor, &target, &counts);
+    size_t across = (size_t)(area->crop_width - 1) / GI_RENDER_TILE_LEAST + 1;
+    size_t down = (size_t)(area->crop_height - 1) / GI_RENDER_TILE_LEAST + 1;
+    return need_workers(scene, across * down, error);
+}
+
+static GlintStatus render(GlintScene *scene, const GiRenderArea *area, const GlintMonitor *monitor,
+    const GiRenderTarget *target, GlintError *error) {
+    double start = gi_machine_seconds();
+    GiRenderCounts counts = {0};
+    GlintStatus status = gi_render(&scene->world, scene->pool, area, monitor, target, &counts);
     scene->stats.trace_seconds = gi_machine_seconds() - start;
     scene->stats.camera_rays = counts.camera_rays;
     scene->stats.shadow_rays = counts.shadow_rays;
@@ -274,6 +298,73 @@ GlintStatus glint_render(
     return status == GLINT_OK ? status
                               : gi_error_set(error, status, "%s", glint_status_text(status));
 }
+
+GlintStatus glint_render(
+    GlintScene *scene, const GlintRenderDesc *desc, float *pixels, GlintError *error) {
+    if (pixels == NULL) return ARGUMENT(error, "pixels is null");
+    GiRenderArea area;
+    GiRenderTarget target;
+    GlintStatus status = plan_render(scene, desc, &area, &target, error);
+    if (status != GLINT_OK) return status;
+    target.color = pixels;
+    return render(scene, &area, desc->monitor, &target, error);
+}
+
+/* ---------------------------------------------------------------- render and save */
+
+static GlintStatus save_afterwards(GlintScene *scene, const GiRenderArea *area,
+    const GlintRenderDesc *desc, const char *path, const GlintSaveDesc *save, GlintError *error) {
+    size_t size = 3 * sizeof(float) * (size_t)area->crop_width * (size_t)area->crop_height;
+    float *pixels = gi_memory_allocate(&scene->memory, size);
+    if (pixels == NULL) return gi_error_memory(error);
+    const GlintImage image = {area->crop_width, area->crop_height, pixels};
+    GlintStatus status = glint_render(scene, desc, pixels, error);
+    if (status == GLINT_OK) status = glint_image_save(&image, path, save, error);
+    gi_memory_free(&scene->memory, pixels, size);
+    return status;
+}
+
+/* The PNG grows with the picture, in a file that shows only when it is whole. */
+static GlintStatus save_meanwhile(GlintScene *scene, const GiRenderArea *area,
+    GiRenderTarget *target, const GlintMonitor *monitor, const GlintSaveDesc *save,
+    GiFileWriter *file, GlintError *error) {
+    const GiPngDesc desc = {.width = area->crop_width,
+        .height = area->crop_height,
+        .worker_count = gi_pool_worker_count(scene->pool),
+        .gamma = scene->kernel->encode,
+        .title = save->title,
+        .sink = gi_file_write,
+        .user = file};
+    GlintStatus status = gi_png_create(&scene->memory, &desc, &target->png, error);
+    if (status == GLINT_OK) status = render(scene, area, monitor, target, error);
+    if (status == GLINT_OK) status = gi_png_finish(target->png, error);
+    gi_png_destroy(target->png);
+    if (status == GLINT_OK && save->monitor != NULL && save->monitor->progress != NULL) {
+        save->monitor->progress(save->monitor->user, GLINT_PHASE_WRITE, 1);
+    }
+    /* Of a failure of the file commit knows the reason. */
+    if (status == GLINT_OK || file->error != 0) return gi_file_write_commit(file, error);
+    gi_file_write_abandon(file);
+    return status;
+}
+
+GlintStatus glint_render_save(GlintScene *scene, const GlintRenderDesc *desc, const char *path,
+    const GlintSaveDesc *save, GlintError *error) {
+    GiRenderArea area;
+    GiRenderTarget target;
+    GlintStatus status = plan_render(scene, desc, &area, &target, error);
+    if (status == GLINT_OK) status = gi_image_check_desc(save, error);
+    if (status == GLINT_OK) status = glint_image_check_path(path, error);
+    if (status != GLINT_OK) return status;
+    GiFileWriter file;
+    if (gi_image_is_png(path) && save->layer_count == 0 &&
+        gi_file_write_begin_hidden(&file, path)) {
+        return save_meanwhile(scene, &area, &target, desc->monitor, save, &file, error);
+    }
+    return save_afterwards(scene, &area, desc, path, save, error);
+}
+
+/* ---------------------------------------------------------------- single rays */
 
 static GiTraceRay trace_ray(const GlintRay *ray) {
     return (GiTraceRay){gi_vec_from(ray->origin), gi_vec_from(ray->direction), ray->t_min,

@@ -35,7 +35,8 @@ for file in src/*/*.h; do
     case $file in
     # Parts of kernel.c, which sets the stage for them.
     src/kernel/wide.h | src/kernel/single.h | src/kernel/frustum.h | src/kernel/bundle.h | \
-        src/kernel/light.h | src/kernel/many.h | src/kernel/regroup_order.h | \
+        src/kernel/gamma.h | src/kernel/light.h | src/kernel/many.h | \
+        src/kernel/regroup_order.h | src/kernel/stream.h | \
         *_template.h) continue ;;
     esac
     check "${file#src/}" "$cc" -std=c11 -Wall -Wextra -x c

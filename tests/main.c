@@ -21,8 +21,10 @@
     X(sample) \
     X(samples) \
     X(mesh) \
+    X(ply) \
     X(reader) \
     X(malformed) \
+    X(scan) \
     X(hit) \
     X(shape) \
     X(kernel) \
@@ -38,6 +40,7 @@
     X(render) \
     X(transport) \
     X(outputs) \
+    X(save) \
     X(flight) \
     X(golden) \
     X(api) \

@@ -3,9 +3,10 @@
 #include "base/cookie.h"
 #include "base/memory.h"
 #include "image/deflate.h"
-#include "image/gamma.h"
 #include "image/png.h"
+#include "kernel/kernel.h"
 #include "math/elementary.h"
+#include "math/gamma.h"
 #include "pictures.h"
 #include "test.h"
 
@@ -26,6 +27,11 @@ static float from_bits(uint32_t bits) {
 static uint8_t encode_one(float value) {
     uint8_t byte;
     gi_gamma_encode(&value, 1, &byte);
+    for (int i = 0; gi_kernel_at(i) != NULL; i++) {
+        uint8_t other;
+        gi_kernel_at(i)->encode(&value, 1, &other);
+        CHECK_INT(other, byte);
+    }
     return byte;
 }
 
@@ -83,6 +89,12 @@ static void gamma_follows_the_formula(void) {
     int wrong = 0;
     for (int i = 0; i < COUNT; i++) wrong += bytes[i] != formula(values[i]);
     CHECK_INT(wrong, 0);
+    for (int i = 0; gi_kernel_at(i) != NULL; i++) {
+        uint8_t *others = malloc(COUNT);
+        gi_kernel_at(i)->encode(values, COUNT, others);
+        CHECK(memcmp(bytes, others, COUNT) == 0);
+        free(others);
+    }
     free(values);
     free(bytes);
 }
@@ -107,6 +119,12 @@ static void gamma_extremes(void) {
         gi_gamma_encode(mixed, (size_t)length, bytes);
         CHECK_INT(bytes[length], 77);
         if (length > 0) CHECK_INT(bytes[length - 1], encode_one(mixed[length - 1]));
+        for (int i = 0; gi_kernel_at(i) != NULL; i++) {
+            uint8_t others[201];
+            memset(others, 77, sizeof others);
+            gi_kernel_at(i)->encode(mixed, (size_t)length, others);
+            CHECK(memcmp(bytes, others, sizeof bytes) == 0);
+        }
     }
 }
 
@@ -274,19 +292,16 @@ static void pieces_depend_on_bytes_alone(void) {
             GiMemory memory;
             gi_memory_init(&memory, &(GlintAllocator){dirty_reallocate, &run}, 0);
             GiDeflater *deflater = gi_deflate_create(&memory);
-            GiDeflateCode *code = gi_deflate_code_create(&memory);
-            gi_deflate_code_learn(code, bytes, 10000);
-            gi_deflate_code_finish(code);
             if (run % 2 == 1) {
                 size_t skip = next_random(&state) % (COUNT - 1);
-                CHECK(gi_deflate_piece(deflater, code, bytes + skip, COUNT - skip, other) > 0);
+                gi_deflate_learn(deflater, bytes + skip, (COUNT - skip) / 2);
+                CHECK(gi_deflate_piece(deflater, bytes + skip, COUNT - skip, other) > 0);
             }
-            size_t other_size =
-                gi_deflate_piece(deflater, code, from, size, run == 0 ? first : other);
+            gi_deflate_learn(deflater, bytes, 10000);
+            size_t other_size = gi_deflate_piece(deflater, from, size, run == 0 ? first : other);
             if (run == 0) first_size = other_size;
             CHECK_INT(other_size, first_size);
             CHECK(run == 0 || memcmp(first, other, first_size) == 0);
-            gi_deflate_code_destroy(code);
             gi_deflate_destroy(deflater);
         }
     }
@@ -296,13 +311,11 @@ static void pieces_depend_on_bytes_alone(void) {
     GiMemory memory;
     gi_memory_init(&memory, NULL, 0);
     GiDeflater *deflater = gi_deflate_create(&memory);
-    GiDeflateCode *code = gi_deflate_code_create(&memory);
-    gi_deflate_code_finish(code);
+    gi_deflate_learn(deflater, bytes, 0);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        size_t size = gi_deflate_piece(deflater, code, bytes, sizes[i], other);
+        size_t size = gi_deflate_piece(deflater, bytes, sizes[i], other);
         CHECK(size > 0 && size <= gi_deflate_bound(sizes[i]));
     }
-    gi_deflate_code_destroy(code);
     gi_deflate_destroy(deflater);
     CHECK_INT(memory.used, 0);
     free(bytes);

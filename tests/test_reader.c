@@ -124,15 +124,15 @@ static void tables(void) {
         CHECK(e - gi_elements < GI_ELEMENT_LIMIT);
         for (int bit = 0; bit < 64; bit++) {
             GiContexts context = e->contexts & GI_CONTEXT(bit);
-            if (context != 0) CHECK(gi_element_find(&index, e->name, context) == e);
+            if (context != 0) CHECK(gi_element_find(&index, gi_span(e->name), context) == e);
         }
-        CHECK(e->type == NULL || gi_type_find(e->type, e->kind) != NULL);
+        CHECK(e->type == NULL || gi_type_find(gi_span(e->type), e->kind) != NULL);
         CHECK(!e->required || e->default_text == NULL);
     }
-    CHECK(gi_element_find(&index, "MINPT", GI_IN_BOX) != NULL);
-    CHECK(gi_element_find(&index, "minPt", GI_IN_SPHERE) == NULL);
+    CHECK(gi_element_find(&index, gi_span("MINPT"), GI_IN_BOX) != NULL);
+    CHECK(gi_element_find(&index, gi_span("minPt"), GI_IN_SPHERE) == NULL);
     for (const GiType *t = gi_types; t->name != NULL; t++) {
-        CHECK(gi_type_find(t->name, t->kind) == t);
+        CHECK(gi_type_find(gi_span(t->name), t->kind) == t);
         CHECK((gi_kind_contexts(t->kind) & t->context) == t->context);
     }
     CHECK(GI_SLOT_COUNT <= 64);
@@ -153,8 +153,8 @@ static void guesses(void) {
     for (size_t i = 0; i < 3 * sizeof file / sizeof file[0]; i++) {
         const char *name = file[i % (sizeof file / sizeof file[0])].name;
         uint64_t contexts = file[i % (sizeof file / sizeof file[0])].contexts;
-        const GiElement *found = gi_element_find(&index, name, contexts);
-        CHECK(gi_element_guess(&index, name, contexts) == found);
+        const GiElement *found = gi_element_find(&index, gi_span(name), contexts);
+        CHECK(gi_element_guess(&index, gi_span(name), contexts) == found);
     }
 }
 

@@ -65,8 +65,8 @@ static inline void on_diagnostic(void *user, const GlintDiagnostic *diagnostic) 
 
 static Loaded loaded; /* one at a time */
 
-static inline Loaded *load_input(
-    Input input, size_t chunk_size, GlintDialect dialect, const GlintAllocator *allocator) {
+static inline Loaded *load_by(Input input, size_t chunk_size, GlintDialect dialect,
+    const GlintAllocator *allocator, bool expat_only) {
     memset(&loaded, 0, sizeof loaded);
     gi_memory_init(&loaded.memory, allocator, (size_t)4 << 30);
     if (!gi_scene_init(&loaded.scene, &loaded.memory)) {
@@ -80,10 +80,16 @@ static inline Loaded *load_input(
         .diagnostic = on_diagnostic,
         .diagnostic_user = &loaded,
         .dialect = dialect,
-        .chunk_size = chunk_size};
+        .chunk_size = chunk_size,
+        .expat_only = expat_only};
     loaded.status = gi_reader_load(&loaded.scene, &source, NULL, &loaded.error);
     loaded.peak_extra = loaded.memory.peak - loaded.memory.used;
     return &loaded;
+}
+
+static inline Loaded *load_input(
+    Input input, size_t chunk_size, GlintDialect dialect, const GlintAllocator *allocator) {
+    return load_by(input, chunk_size, dialect, allocator, false);
 }
 
 static inline Loaded *load_bytes(const char *bytes, size_t size, size_t chunk_size) {

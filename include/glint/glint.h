@@ -522,6 +522,13 @@ GLINT_API GlintSaveDesc glint_save_desc_default(void);
 GLINT_API GlintStatus glint_image_save(
     const GlintImage *image, const char *path, const GlintSaveDesc *desc, GlintError *error);
 
+/* Draws and writes path: what glint_render and then glint_image_save would write, to the byte. A
+ * PNG is encoded while it is drawn, and its pixels need no memory beyond what is under way. Both
+ * descs count, but for save's thread_count: the scene's threads do it. One call at a time per
+ * scene. Errors: ARGUMENT, FILE, MEMORY, THREAD, CANCELLED (nothing is then written). */
+GLINT_API GlintStatus glint_render_save(GlintScene *scene, const GlintRenderDesc *desc,
+    const char *path, const GlintSaveDesc *save, GlintError *error);
+
 /* Whether there is a format for this name and Glint can write it; a question to ask before drawing.
  * Nothing is written. Errors: ARGUMENT (extension), FILE (a missing module). */
 GLINT_API GlintStatus glint_image_check_path(const char *path, GlintError *error);

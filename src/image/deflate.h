@@ -15,20 +15,13 @@ void gi_deflate_destroy(GiDeflater *deflater); /* null is allowed */
 /* What a piece of size bytes needs at most. */
 size_t gi_deflate_bound(size_t size);
 
-/* A code made for the bytes at hand: learn from samples of what will be compressed, then finish,
- * and hand it to every piece. Read-only from then on, for any number of threads. Null: no memory.
- */
-typedef struct GiDeflateCode GiDeflateCode;
-GiDeflateCode *gi_deflate_code_create(GiMemory *memory);
-void gi_deflate_code_learn(GiDeflateCode *code, const uint8_t *bytes, size_t size);
-void gi_deflate_code_finish(GiDeflateCode *code);
-void gi_deflate_code_destroy(GiDeflateCode *code); /* null is allowed */
+/* Makes a code for bytes like these, for the pieces that follow. */
+void gi_deflate_learn(GiDeflater *deflater, const uint8_t *bytes, size_t size);
 
-/* Compresses size bytes (1 .. 2^30) to out, which has room for gi_deflate_bound(size). Returns the
- * compressed size; 0 when the library fails, which takes a lack of memory. The result depends on
- * the bytes and the code alone. */
-size_t gi_deflate_piece(GiDeflater *deflater, const GiDeflateCode *code, const uint8_t *bytes,
-    size_t size, uint8_t *out);
+/* Compresses size bytes (1 .. 2^30) to out, which has room for gi_deflate_bound(size), after
+ * something was learned. Returns the compressed size; 0 when the library fails, which takes a lack
+ * of memory. The result depends on these bytes and what was learned last alone. */
+size_t gi_deflate_piece(GiDeflater *deflater, const uint8_t *bytes, size_t size, uint8_t *out);
 
 /* What ends the stream after the last piece: an empty last block. */
 #define GI_DEFLATE_END      "\x03\x00"

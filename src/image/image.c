@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT
  * The public functions for pictures: arguments are checked here, the work is done in png.c, pfm.c,
  * exr.c and gamma.c. */
+#include "image/image.h"
+
 #include "base/assert.h"
 #include "base/cookie.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "image/exr.h"
-#include "image/gamma.h"
 #include "image/pfm.h"
 #include "image/png.h"
+#include "math/gamma.h"
 #include "port/file.h"
 
 #include <string.h>
@@ -22,13 +24,21 @@ static bool is_sound(const GlintImage *image) {
            image->width <= PIXEL_LIMIT / image->height;
 }
 
-static GlintStatus check(const GlintImage *image, const GlintSaveDesc *desc, GlintError *error) {
+GlintStatus gi_image_check_desc(const GlintSaveDesc *desc, GlintError *error) {
     const char *fault = NULL;
     if (desc == NULL || desc->cookie != GI_COOKIE) {
         fault = "the save desc was not made by glint_save_desc_default";
     } else if (desc->thread_count < 0) {
         fault = "thread_count is negative";
-    } else if (image == NULL || image->pixels == NULL) {
+    }
+    return fault == NULL ? GLINT_OK : gi_error_set(error, GLINT_ERROR_ARGUMENT, "%s", fault);
+}
+
+static GlintStatus check(const GlintImage *image, const GlintSaveDesc *desc, GlintError *error) {
+    GlintStatus status = gi_image_check_desc(desc, error);
+    if (status != GLINT_OK) return status;
+    const char *fault = NULL;
+    if (image == NULL || image->pixels == NULL) {
         fault = "there is no picture";
     } else if (!is_sound(image)) {
         fault = "width and height must be at least 1, their product at most 2^28";
@@ -51,10 +61,6 @@ static Format format_of(const char *path) {
            : strcmp(extension, ".pfm") == 0 ? FORMAT_PFM
            : strcmp(extension, ".exr") == 0 ? FORMAT_EXR
                                             : FORMAT_NONE;
-}
-
-static bool to_file(void *user, const void *bytes, size_t size) {
-    return gi_file_write(user, bytes, size);
 }
 
 static GlintStatus check_format(const char *path, GlintError *error) {
@@ -88,13 +94,16 @@ static GlintStatus write_format(const GlintImage *image, Format format, const Gl
     switch (format) {
     case FORMAT_NONE: break;
     case FORMAT_PNG:
-        return gi_png_encode(
-            &memory, image, desc->title, desc->thread_count, desc->monitor, to_file, file, error);
-    case FORMAT_PFM: return gi_pfm_encode(&memory, image, desc->monitor, to_file, file, error);
+        return gi_png_encode(&memory, image, desc->title, desc->thread_count, desc->monitor,
+            gi_file_write, file, error);
+    case FORMAT_PFM:
+        return gi_pfm_encode(&memory, image, desc->monitor, gi_file_write, file, error);
     case FORMAT_EXR: return gi_exr_write(&memory, image, desc, file, error);
     }
     return GLINT_OK;
 }
+
+bool gi_image_is_png(const char *path) { return format_of(path) == FORMAT_PNG; }
 
 GlintStatus glint_image_save(
     const GlintImage *image, const char *path, const GlintSaveDesc *desc, GlintError *error) {

@@ -1,11 +1,41 @@
 /* SPDX-License-Identifier: MIT
- * PNG: 8-bit RGB, gamma 2.2. */
+ * PNG: 8-bit RGB, gamma 2.2. A picture that is there is encoded by one call; one that is being made
+ * is encoded meanwhile. Either way the bytes depend on the pixels and the title alone. */
 #pragma once
 
 #include "base/memory.h"
+#include "math/gamma.h"
 
 /* Encodes image, which has been checked, and hands the bytes to sink in order. title (UTF-8) and
- * monitor may be null; thread_count 0 is one per core. The bytes do not depend on thread_count.
- * Errors: FILE (the sink stopped), MEMORY, CANCELLED. */
+ * monitor may be null; thread_count 0 is one per core. Errors: FILE (the sink stopped), MEMORY,
+ * CANCELLED. */
 GlintStatus gi_png_encode(GiMemory *memory, const GlintImage *image, const char *title,
     int thread_count, const GlintMonitor *monitor, GlintSinkFn sink, void *user, GlintError *error);
+
+/* ---------------------------------------------------------------- while it is being made */
+
+typedef struct GiPng GiPng;
+
+typedef struct GiPngDesc {
+    int width, height, worker_count;
+    GiGammaFn gamma;   /* null: gi_gamma_encode; or another that gives the same */
+    const char *title; /* or null */
+    GlintSinkFn sink;  /* called by those functions that send, on their thread */
+    void *user;
+} GiPngDesc;
+
+/* Sends the head. Errors: FILE, MEMORY. */
+GlintStatus gi_png_create(GiMemory *memory, const GiPngDesc *desc, GiPng **png, GlintError *error);
+void gi_png_destroy(GiPng *png); /* null is allowed */
+
+/* Count linear pixels of row y from column x on: in any order, any number of threads at a time,
+ * each with its own number below worker_count, each pixel once. False: there is no memory for them;
+ * the picture is lost. */
+bool gi_png_put(GiPng *png, int x, int y, int count, const float *linear, int worker);
+
+/* Sends what is ready. One thread at a time, also while others put pixels. False: the sink has
+ * stopped. */
+bool gi_png_send(GiPng *png);
+
+/* Sends the rest, when all pixels are there. Errors: FILE (the sink stopped), MEMORY. */
+GlintStatus gi_png_finish(GiPng *png, GlintError *error);

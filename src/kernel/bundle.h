@@ -23,16 +23,21 @@
 
 /* ---------------------------------------------------------------- deciding */
 
-/* The rays from i on. Only slabs need 1 / d, so it is worked out when the first slab is met. */
-static inline gi_wide_Ray tile_ray(Tile *tile, GiShapeRef ref, int i) {
-    GiBundle *bundle = tile->bundle;
-    gi_wide_Ray ray = {.ox = r_load(bundle->ox + i),
+/* The rays from i on, but for 1 / d. */
+static inline gi_wide_Ray tile_line(const GiBundle *bundle, int i) {
+    return (gi_wide_Ray){.ox = r_load(bundle->ox + i),
         .oy = r_load(bundle->oy + i),
         .oz = r_load(bundle->oz + i),
         .dx = r_load(bundle->dx + i),
         .dy = r_load(bundle->dy + i),
         .dz = r_load(bundle->dz + i),
         .inverse_square = r_load(bundle->inverse_square + i)};
+}
+
+/* Only slabs need 1 / d, so it is worked out when the first slab is met. */
+static inline gi_wide_Ray tile_ray(Tile *tile, GiShapeRef ref, int i) {
+    GiBundle *bundle = tile->bundle;
+    gi_wide_Ray ray = tile_line(bundle, i);
     if (gi_shape_kind(ref) != GI_SHAPE_BOX && gi_shape_kind(ref) != GI_SHAPE_CONE) return ray;
     uint32_t bit = 1u << i / GI_DOUBLES % 32;
     uint32_t *known = &tile->inverse_known[i / GI_DOUBLES / 32];
@@ -84,40 +89,70 @@ static inline bool packet_stop(Tile *tile, int packet, unsigned rays) {
     return true;
 }
 
+/* What the rays from i on meet of a shape: what is nearer becomes their best. Returns the bits of
+ * rays to which that happened. */
+static inline unsigned take_nearer(Tile *tile, GiShapeRef ref, int i, M hit, R t) {
+    GiBundle *bundle = tile->bundle;
+    R best = r_load(bundle->t + i);
+    M nearer = hit & R_LESS(t, best);
+    unsigned bits = m_bits(nearer), ties = m_bits(hit & R_EQUAL(t, best));
+    if (bits != 0) {
+        r_store(bundle->t + i, R_SELECT(nearer, t, best));
+        u_store_where(bundle->shape + i, bits, ref.bits);
+        u_store_where(bundle->instance + i, bits, tile->instance);
+    }
+    if (ties != 0) resolve_ties(tile, ref, i, ties);
+    return bits;
+}
+
 /* One shape against those rays of a packet whose bits are set. Returns whether anything changed. */
 static inline bool test_closest(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
-    GiBundle *bundle = tile->bundle;
+    const GiBundle *bundle = tile->bundle;
     unsigned changed = 0;
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
         gi_wide_Ray ray = tile_ray(tile, ref, i);
-        R t, best = r_load(bundle->t + i);
+        R t;
         M hit = gi_wide_shape(
             tile->shapes, ref, &ray, r_load(bundle->t_min + i), r_load(bundle->t_max + i), &t);
-        M nearer = hit & R_LESS(t, best);
-        unsigned bits = m_bits(nearer), ties = m_bits(hit & R_EQUAL(t, best));
-        if (bits != 0) {
-            r_store(bundle->t + i, R_SELECT(nearer, t, best));
-            u_store_where(bundle->shape + i, bits, ref.bits);
-            u_store_where(bundle->instance + i, bits, tile->instance);
-            changed |= bits;
-        }
-        if (ties != 0) resolve_ties(tile, ref, i, ties);
+        changed |= take_nearer(tile, ref, i, hit, t);
     }
-    if (changed == 0) return false;
-    packet_refresh_far(tile, packet);
-    return true;
+    if (changed != 0) packet_refresh_far(tile, packet);
+    return changed != 0;
+}
+
+/* The same of spheres. Not inline, so that it has all registers to itself. */
+static NOINLINE bool closest_sphere(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
+    const GiBundle *bundle = tile->bundle;
+    const GiSphere *sphere = &tile->shapes->spheres[gi_shape_index(ref)];
+    unsigned changed = 0;
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
+        if (!any_of(rays, j)) continue;
+        int i = packet * GI_PACKET_SIZE + j;
+        gi_wide_Ray ray = tile_line(bundle, i);
+        R t;
+        M hit =
+            gi_wide_sphere(sphere, &ray, r_load(bundle->t_min + i), r_load(bundle->t_max + i), &t);
+        changed |= take_nearer(tile, ref, i, hit, t);
+    }
+    if (changed != 0) packet_refresh_far(tile, packet);
+    return changed != 0;
+}
+
+/* Without those rays that spare this shape. */
+static inline unsigned not_sparing(const Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
+    const GiBundle *bundle = tile->bundle;
+    unsigned skip = sixteen_equal(ref.bits, bundle->skip + packet * GI_PACKET_SIZE);
+    if (skip == 0) return rays;
+    return rays &
+           ~(skip & sixteen_equal(tile->instance, bundle->skip_instance + packet * GI_PACKET_SIZE));
 }
 
 static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
     GiBundle *bundle = tile->bundle;
     unsigned stopped = 0;
-    unsigned skip = sixteen_equal(ref.bits, bundle->skip + packet * GI_PACKET_SIZE);
-    if (skip != 0) {
-        skip &= sixteen_equal(tile->instance, bundle->skip_instance + packet * GI_PACKET_SIZE);
-        rays &= ~skip;
-    }
+    rays = not_sparing(tile, ref, packet, rays);
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
@@ -132,7 +167,40 @@ static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned ray
     return packet_stop(tile, packet, stopped);
 }
 
+/* Whether rays enter a sphere within their limits, by far more than the roundings that the answer
+ * of gi_wide_sphere takes: without its root. rest and nearest are gi_wide_sphere_rest's. */
+static inline M enters_surely(R rest, R nearest, const gi_wide_Ray *ray, R t_min, R t_max) {
+    R room = nearest - t_min - R_OF(0x1p-40) * R_ABS(nearest);
+    R square = rest * ray->inverse_square * R_OF(1 + 0x1p-40);
+    return R_LESS(R_OF(0), room) & R_LESS(square, room * room) & R_LESS(nearest, t_max);
+}
+
+static NOINLINE bool any_sphere(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
+    GiBundle *bundle = tile->bundle;
+    const GiSphere *sphere = &tile->shapes->spheres[gi_shape_index(ref)];
+    unsigned stopped = 0;
+    rays = not_sparing(tile, ref, packet, rays);
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
+        if (!any_of(rays, j)) continue;
+        int i = packet * GI_PACKET_SIZE + j;
+        gi_wide_Ray ray = tile_line(bundle, i);
+        R t, nearest, rest = gi_wide_sphere_rest(sphere, &ray, &nearest);
+        unsigned bits = m_bits(R_LESS_EQUAL(R_OF(0), rest)) & rays >> j;
+        if (bits == 0) continue;
+        R t_min = r_load(bundle->t_min + i), t_max = r_load(bundle->t_max + i);
+        unsigned sure = m_bits(enters_surely(rest, nearest, &ray, t_min, t_max));
+        if ((bits & ~sure) != 0) bits &= m_bits(gi_wide_sphere(sphere, &ray, t_min, t_max, &t));
+        u_store_where(bundle->shape + i, bits, ref.bits);
+        stopped |= bits << j;
+    }
+    return packet_stop(tile, packet, stopped);
+}
+
 static inline bool tile_test(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
+    if (gi_shape_kind(ref) == GI_SHAPE_SPHERE) {
+        return tile->any ? any_sphere(tile, ref, packet, rays)
+                         : closest_sphere(tile, ref, packet, rays);
+    }
     return tile->any ? test_any(tile, ref, packet, rays) : test_closest(tile, ref, packet, rays);
 }
 

@@ -110,8 +110,6 @@ static inline R tile_dot(GiVec a, R x, R y, R z) {
     return R_OF(a.x) * x + R_OF(a.y) * y + R_OF(a.z) * z;
 }
 
-static inline double r_minimum(R a) { return -r_maximum(-a); }
-
 /* Rectangle and depths of the packets. False when a ray is too oblique to the axis. */
 static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiVec w) {
     GiBundle *bundle = tile->bundle;
@@ -123,7 +121,6 @@ static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiV
             tile->alive[k] = 0;
             continue;
         }
-        R a0 = R_OF(INFINITY), a1 = R_OF(-INFINITY), b0 = a0, b1 = a1, far = R_OF(-INFINITY);
         for (int i = k * GI_PACKET_SIZE; i < (k + 1) * GI_PACKET_SIZE; i += GI_DOUBLES) {
             R x = r_load(bundle->dx + i), y = r_load(bundle->dy + i), z = r_load(bundle->dz + i);
             R square = x * x + y * y + z * z;
@@ -134,26 +131,23 @@ static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiV
                       M_NOT(R_LESS(R_OF(0.16) * square, depth * depth) & R_LESS(R_OF(0), depth));
             r_store(bundle->depth + i, depth);
             R scale = R_OF(toward) / depth;
-            R a = tile_dot(u, x, y, z) * scale, b = tile_dot(v, x, y, z) * scale;
-            a0 = R_MIN(a0, a);
-            a1 = R_MAX(a1, a);
-            b0 = R_MIN(b0, b);
-            b1 = R_MAX(b1, b);
+            r_store_floats(tile->a + i, tile_dot(u, x, y, z) * scale);
+            r_store_floats(tile->b + i, tile_dot(v, x, y, z) * scale);
             /* Shadow rays end at the apex, so a ray's depth is that of its origin. */
             R reach = depth;
             if (!tile->any) reach = depth * r_load(bundle->t + i);
-            far = R_MAX(far, reach);
-            r_store_floats(tile->a + i, a);
-            r_store_floats(tile->b + i, b);
             r_store_floats(tile->far + i, reach * R_OF(tile->scale * (1 + GI_WIDER)));
         }
-        packets->a0[k] = (float)r_minimum(a0), packets->a1[k] = (float)r_maximum(a1);
-        packets->b0[k] = (float)r_minimum(b0), packets->b1[k] = (float)r_maximum(b1);
+        int first = k * GI_PACKET_SIZE;
+        packets->a0[k] = f_lowest(tile->a + first, GI_PACKET_SIZE);
+        packets->a1[k] = f_highest(tile->a + first, GI_PACKET_SIZE);
+        packets->b0[k] = f_lowest(tile->b + first, GI_PACKET_SIZE);
+        packets->b1[k] = f_highest(tile->b + first, GI_PACKET_SIZE);
+        packets->far[k] = f_highest(tile->far + first, GI_PACKET_SIZE);
         packets->a0[k] -= GI_WIDER * (1 + fabsf(packets->a0[k]));
         packets->a1[k] += GI_WIDER * (1 + fabsf(packets->a1[k]));
         packets->b0[k] -= GI_WIDER * (1 + fabsf(packets->b0[k]));
         packets->b1[k] += GI_WIDER * (1 + fabsf(packets->b1[k]));
-        packets->far[k] = (float)(r_maximum(far) * tile->scale) * (1 + GI_WIDER);
         tile->alive[k] = 0xffff;
     }
     return m_bits(oblique) == 0;

@@ -21,6 +21,7 @@
 #include "kernel/bundle.h"
 #include "kernel/light.h"
 #include "kernel/stream.h"
+#include "kernel/gamma.h"
 #include "kernel/regroup_order.h"
 
 extern const GiKernel GI_KERNEL(kernel);
@@ -38,6 +39,6 @@ const GiKernel GI_KERNEL(kernel) = {
     GI_KERNEL(light),
     GI_KERNEL(shadows),
     GI_KERNEL(add),
-    GI_KERNEL(regroup_init),
+    GI_KERNEL(encode),
     GI_KERNEL(regroup),
 };

@@ -11,6 +11,7 @@
 #include "math/view.h"
 #include "kernel/points.h"
 #include "kernel/regroup.h"
+#include "math/gamma.h"
 
 typedef struct GiTrace {
     const GiTree *tree;
@@ -95,9 +96,11 @@ typedef struct GiKernel {
         const GiPoints *points, const GiLit *lit, const uint16_t *order, GiBundle *bundle);
     /* Adds what arrives to what the points show. */
     void (*add)(const GiLit *lit, GiPoints *points);
-    void (*regroup_init)(GiRegroup *regroup); /* once */
-    /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT. */
-    void (*regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z, int count);
+    GiGammaFn encode;
+    /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT. `large`: the shapes around
+     * are, so that the order stays as it is where it is good enough. */
+    void (*regroup)(
+        GiRegroup *regroup, const float *x, const float *y, const float *z, int count, bool large);
 } GiKernel;
 
 /* The kernels this build has and this machine can run, fastest first; null at the end. */

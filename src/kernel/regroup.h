@@ -5,6 +5,7 @@
 
 #include "math/vec.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 enum { GI_REGROUP_LIMIT = 16384 };
@@ -15,4 +16,5 @@ typedef struct GiRegroup {
     float a[GI_REGROUP_LIMIT + 16], b[GI_REGROUP_LIMIT + 16];
     uint16_t bucket[GI_REGROUP_LIMIT];
     uint16_t key[GI_REGROUP_LIMIT], curve[128 * 128];
+    bool drawn; /* the curve; the caller sets it to false before the first use */
 } GiRegroup;

@@ -8,6 +8,8 @@
 
 enum { BUCKETS = 512, RANKS = 128, CELLS = RANKS * RANKS, KEEP_ORDER = 16 };
 
+static const float GOOD_WIDTH = 1.5f;
+
 typedef struct Axes {
     float u[3], v[3], w[3];
 } Axes;
@@ -74,29 +76,29 @@ static void align(GiRegroup *regroup, int count) {
     }
 }
 
-/* Place of a cell on the curve (Hilbert 1891): from the largest square down, the quarter that holds
- * the cell, with the quarters turned so that the curve stays in one piece. */
-static uint16_t hilbert_place(unsigned x, unsigned y) {
-    unsigned place = 0;
-    for (unsigned side = RANKS / 2; side > 0; side /= 2) {
-        unsigned right = (x & side) != 0, up = (y & side) != 0;
-        place += side * side * ((3 * right) ^ up);
-        if (up == 0) {
-            if (right == 1) {
-                x = RANKS - 1 - x;
-                y = RANKS - 1 - y;
+/* The place of each cell on the curve (Hilbert 1891), from squares of one cell up: four of a size
+ * make the next, turned so that the curve stays in one piece. Made when it is first needed, since
+ * not all scenes have shadows. */
+static void draw_curve(uint16_t curve[RANKS * RANKS]) {
+    curve[0] = 0;
+    for (unsigned side = 1; side < RANKS; side *= 2) {
+        unsigned cells = side * side;
+        for (unsigned x = 0; x < side; x++) {
+            for (unsigned y = 0; y < side; y++) {
+                unsigned place = curve[x * RANKS + y];
+                unsigned turned_x = 2 * side - 1 - y, turned_y = side - 1 - x;
+                curve[x * RANKS + side + y] = (uint16_t)(cells + place);
+                curve[(side + x) * RANKS + side + y] = (uint16_t)(2 * cells + place);
+                curve[turned_x * RANKS + turned_y] = (uint16_t)(3 * cells + place);
             }
-            unsigned swap = x;
-            x = y;
-            y = swap;
         }
-    }
-    return (uint16_t)place;
-}
-
-static void GI_KERNEL(regroup_init)(GiRegroup *regroup) {
-    for (unsigned x = 0; x < RANKS; x++) {
-        for (unsigned y = 0; y < RANKS; y++) regroup->curve[x * RANKS + y] = hilbert_place(x, y);
+        for (unsigned x = 0; x < side; x++) {
+            for (unsigned y = 0; y < x; y++) {
+                uint16_t place = curve[x * RANKS + y];
+                curve[x * RANKS + y] = curve[y * RANKS + x];
+                curve[y * RANKS + x] = place;
+            }
+        }
     }
 }
 
@@ -169,13 +171,42 @@ static void sort_by_key(GiRegroup *regroup, int count) {
     }
 }
 
+/* How wide packets are in the order that there is, beside what they would be if all of them
+ * together paved the rectangle of all rays. */
+static float packet_width(const GiRegroup *regroup, int count) {
+    int packets = count / GI_PACKET_SIZE;
+    float sum = 0, low_a = INFINITY, high_a = -INFINITY, low_b = INFINITY, high_b = -INFINITY;
+    for (int i = 0; i < packets * GI_PACKET_SIZE; i += GI_PACKET_SIZE) {
+        float a0 = f_lowest(regroup->a + i, GI_PACKET_SIZE);
+        float a1 = f_highest(regroup->a + i, GI_PACKET_SIZE);
+        float b0 = f_lowest(regroup->b + i, GI_PACKET_SIZE);
+        float b1 = f_highest(regroup->b + i, GI_PACKET_SIZE);
+        sum += (a1 - a0) + (b1 - b0);
+        if (low_a > a0) low_a = a0;
+        if (high_a < a1) high_a = a1;
+        if (low_b > b0) low_b = b0;
+        if (high_b < b1) high_b = b1;
+    }
+    return sum / (sqrtf((float)packets) * ((high_a - low_a) + (high_b - low_b)));
+}
+
+static void keep_order(GiRegroup *regroup, int count) {
+    for (int i = 0; i < count; i++) regroup->order[i] = (uint16_t)i;
+}
+
 static void GI_KERNEL(regroup)(
-    GiRegroup *regroup, const float *x, const float *y, const float *z, int count) {
+    GiRegroup *regroup, const float *x, const float *y, const float *z, int count, bool large) {
     if (count <= KEEP_ORDER) {
-        for (int i = 0; i < count; i++) regroup->order[i] = (uint16_t)i;
+        keep_order(regroup, count);
         return;
     }
     project(regroup, x, y, z, count);
+    if (large && packet_width(regroup, count) < GOOD_WIDTH) {
+        keep_order(regroup, count);
+        return;
+    }
+    if (!regroup->drawn) draw_curve(regroup->curve);
+    regroup->drawn = true;
     align(regroup, count);
     for (int i = 0; i < count; i++) regroup->key[i] = 0;
     rank(regroup, regroup->a, count, RANKS);

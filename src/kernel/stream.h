@@ -151,11 +151,12 @@ static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, co
         stream_load(ray, rays, i, count);
         u_gather(shape, bundle->shape, ray);
         u_gather(pixel, bundle->pixel, ray);
-        Hits hits = {.o = {r_gather(bundle->ox, ray, 1), r_gather(bundle->oy, ray, 1),
-                         r_gather(bundle->oz, ray, 1)},
-            .d = {r_gather(bundle->dx, ray, 1), r_gather(bundle->dy, ray, 1),
-                r_gather(bundle->dz, ray, 1)},
-            .t = r_gather(bundle->t, ray, 1)};
+        Hits hits; /* no initializer, which would clear the rest of it each time */
+        hits.o = (Wide){r_gather(bundle->ox, ray, 1), r_gather(bundle->oy, ray, 1),
+            r_gather(bundle->oz, ray, 1)};
+        hits.d = (Wide){r_gather(bundle->dx, ray, 1), r_gather(bundle->dy, ray, 1),
+            r_gather(bundle->dz, ray, 1)};
+        hits.t = r_gather(bundle->t, ray, 1);
         hits.p = wide_along(hits.o, hits.d, hits.t);
         for (int k = 0; k < GI_DOUBLES; k++) {
             hits.shape[k] = gi_shape_index((GiShapeRef){shape[k]});

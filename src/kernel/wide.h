@@ -11,6 +11,8 @@
  * Comparisons of floats give bits, lane 0 lowest. Arithmetic is written with operators. */
 #pragma once
 
+#include "math/gamma.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -44,6 +46,28 @@
 
 #ifndef GI_IS_PORTABLE
 #include <immintrin.h>
+#endif
+
+/* ---------------------------------------------------------------- bits, memory */
+
+#if defined(__GNUC__)
+#define NOINLINE __attribute__((noinline))
+static inline void prefetch(const void *p) { __builtin_prefetch(p); }
+static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
+static inline int bit_count(unsigned bits) { return __builtin_popcount(bits); }
+#else
+#define NOINLINE
+static inline void prefetch(const void *p) { (void)p; }
+static inline int lowest_bit(unsigned bits) {
+    int index = 0;
+    while (!(bits >> index & 1)) index++;
+    return index;
+}
+static inline int bit_count(unsigned bits) {
+    int count = 0;
+    for (; bits != 0; bits &= bits - 1) count++;
+    return count;
+}
 #endif
 
 /* ---------------------------------------------------------------- floats: culling */
@@ -90,24 +114,42 @@ static inline unsigned f_less_equal(F a, F b) { return a <= b; }
 #endif
 
 /* The smallest and the largest of count numbers, a multiple of sixteen. */
+#if defined(GI_IS_AVX512)
+static inline float f_lowest(const float *p, int count) {
+    __m512 least = _mm512_loadu_ps(p);
+    for (int i = 16; i < count; i += 16) least = _mm512_min_ps(_mm512_loadu_ps(p + i), least);
+    return _mm512_reduce_min_ps(least);
+}
+static inline float f_highest(const float *p, int count) {
+    __m512 most = _mm512_loadu_ps(p);
+    for (int i = 16; i < count; i += 16) most = _mm512_max_ps(_mm512_loadu_ps(p + i), most);
+    return _mm512_reduce_max_ps(most);
+}
+#else
+/* Lane by lane, halves against each other. */
 static inline float f_lowest(const float *p, int count) {
     F least = f_load(p);
     for (int i = GI_FLOATS; i < count; i += GI_FLOATS) least = f_min(f_load(p + i), least);
     float lane[GI_FLOATS];
     f_store(lane, least);
-    float result = lane[0];
-    for (int i = 1; i < GI_FLOATS; i++) result = lane[i] < result ? lane[i] : result;
-    return result;
+    for (int half = GI_FLOATS / 2; half > 0; half /= 2) {
+        for (int i = 0; i < half; i++)
+            lane[i] = lane[i + half] < lane[i] ? lane[i + half] : lane[i];
+    }
+    return lane[0];
 }
 static inline float f_highest(const float *p, int count) {
     F most = f_load(p);
     for (int i = GI_FLOATS; i < count; i += GI_FLOATS) most = f_max(f_load(p + i), most);
     float lane[GI_FLOATS];
     f_store(lane, most);
-    float result = lane[0];
-    for (int i = 1; i < GI_FLOATS; i++) result = lane[i] > result ? lane[i] : result;
-    return result;
+    for (int half = GI_FLOATS / 2; half > 0; half /= 2) {
+        for (int i = 0; i < half; i++)
+            lane[i] = lane[i + half] > lane[i] ? lane[i + half] : lane[i];
+    }
+    return lane[0];
 }
+#endif
 
 /* Sixteen numbers against one: bits of those where x <= p[i], and where p[i] <= x. */
 #if defined(GI_IS_AVX512)
@@ -177,25 +219,6 @@ static inline unsigned sixteen_equal(uint32_t value, const uint32_t p[16]) {
     unsigned bits = 0;
     for (int i = 0; i < 16; i++) bits |= (unsigned)(p[i] == value) << i;
     return bits;
-#endif
-}
-
-/* Writes base + i for every bit i of sixteen, in order, and returns how many. There must be room
- * for sixteen. */
-static inline int sixteen_append(uint32_t *to, unsigned bits, uint32_t base) {
-#if defined(GI_IS_AVX512)
-    const __m512i count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-    __m512i all = _mm512_add_epi32(count, _mm512_set1_epi32((int)base));
-    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, all));
-    return _mm_popcnt_u32(bits);
-#else
-    int count = 0;
-    for (; bits != 0; bits &= bits - 1) {
-        uint32_t i = 0;
-        while (!(bits >> i & 1)) i++;
-        to[count++] = base + i;
-    }
-    return count;
 #endif
 }
 
@@ -445,6 +468,67 @@ static inline int places_where(
 }
 #endif
 
+/* ---------------------------------------------------------------- floats: gamma */
+
+/* Sixteen values, clamped, through the table of math/gamma.h. The smallest value comes second to
+ * max, which then takes it for NaN. With AVX-512 the look-ups take 0.27 ns a value, with AVX2 0.45,
+ * one by one 0.8. */
+#if defined(GI_IS_AVX512)
+static inline void sixteen_gamma(const uint32_t *table, const float p[16], uint8_t to[16]) {
+    __m512 value = _mm512_max_ps(_mm512_loadu_ps(p), _mm512_set1_ps(GI_GAMMA_LOWEST));
+    __m512i bits = _mm512_castps_si512(_mm512_min_ps(value, _mm512_set1_ps(1)));
+    __m512i bucket = _mm512_srli_epi32(
+        _mm512_sub_epi32(bits, _mm512_set1_epi32(GI_GAMMA_LOWEST_BITS)), GI_GAMMA_LOW_BITS);
+    __m512i low = _mm512_and_si512(bits, _mm512_set1_epi32((1 << GI_GAMMA_LOW_BITS) - 1));
+    __m512i sum = _mm512_add_epi32(_mm512_i32gather_epi32(bucket, table, 4), low);
+    __m128i all = _mm512_cvtepi32_epi8(_mm512_srli_epi32(sum, GI_GAMMA_LOW_BITS));
+    _mm_storeu_si128((__m128i *)(void *)to, all);
+}
+#elif defined(GI_IS_AVX2)
+static inline __m256i eight_gamma(const uint32_t *table, const float p[8]) {
+    __m256 value = _mm256_max_ps(_mm256_loadu_ps(p), _mm256_set1_ps(GI_GAMMA_LOWEST));
+    __m256i bits = _mm256_castps_si256(_mm256_min_ps(value, _mm256_set1_ps(1)));
+    __m256i bucket = _mm256_srli_epi32(
+        _mm256_sub_epi32(bits, _mm256_set1_epi32(GI_GAMMA_LOWEST_BITS)), GI_GAMMA_LOW_BITS);
+    __m256i low = _mm256_and_si256(bits, _mm256_set1_epi32((1 << GI_GAMMA_LOW_BITS) - 1));
+    __m256i entry = _mm256_i32gather_epi32((const int *)(const void *)table, bucket, 4);
+    return _mm256_srli_epi32(_mm256_add_epi32(entry, low), GI_GAMMA_LOW_BITS);
+}
+static inline void sixteen_gamma(const uint32_t *table, const float p[16], uint8_t to[16]) {
+    __m256i words = _mm256_packus_epi32(eight_gamma(table, p), eight_gamma(table, p + 8));
+    words = _mm256_permute4x64_epi64(words, 0xd8); /* packing works in halves */
+    __m128i low = _mm256_castsi256_si128(words), high = _mm256_extracti128_si256(words, 1);
+    _mm_storeu_si128((__m128i *)(void *)to, _mm_packus_epi16(low, high));
+}
+#else
+static inline void sixteen_gamma(const uint32_t *table, const float p[16], uint8_t to[16]) {
+    float clamped[16];
+    for (int i = 0; i < 16; i += GI_FLOATS) {
+        F value = f_max(f_load(p + i), f_of(GI_GAMMA_LOWEST));
+        f_store(clamped + i, f_min(value, f_of(1)));
+    }
+    for (int i = 0; i < 16; i++) to[i] = gi_gamma_byte(table, clamped[i]);
+}
+#endif
+
+/* Writes base + i for every bit i of sixteen, in order, and returns how many. There must be room
+ * for sixteen. */
+static inline int sixteen_append(uint32_t *to, unsigned bits, uint32_t base) {
+#if defined(GI_IS_AVX512)
+    const __m512i count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    __m512i all = _mm512_add_epi32(count, _mm512_set1_epi32((int)base));
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, all));
+    return _mm_popcnt_u32(bits);
+#elif defined(GI_HAS_EIGHT)
+    int count = eight_append_indices(to, base, bits & 0xff);
+    return count + eight_append_indices(to + count, base + 8, bits >> 8);
+#else
+    int count = 0;
+    for (; bits != 0; bits &= bits - 1) to[count++] = base + (uint32_t)lowest_bit(bits);
+    return count;
+#endif
+}
+
 /* ---------------------------------------------------------------- doubles: deciding */
 
 #if defined(GI_IS_AVX512)
@@ -530,6 +614,15 @@ static inline R r_from_floats(const float *p) { return _mm256_cvtps_pd(_mm_loadu
 static inline R r_gather(const double *p, const uint32_t *index, int stride) {
     __m128i all = _mm_loadu_si128((const __m128i *)(const void *)index);
     return _mm256_i32gather_pd(p, _mm_mullo_epi32(all, _mm_set1_epi32(stride)), 8);
+}
+static inline void u_gather(uint32_t *to, const uint32_t *p, const uint32_t *index) {
+    __m128i all = _mm_loadu_si128((const __m128i *)(const void *)index);
+    _mm_storeu_si128(
+        (__m128i *)(void *)to, _mm_i32gather_epi32((const int *)(const void *)p, all, 4));
+}
+static inline void u_widen(uint32_t *to, const uint16_t *from) {
+    __m128i all = _mm_loadl_epi64((const __m128i *)(const void *)from);
+    _mm_storeu_si128((__m128i *)(void *)to, _mm_cvtepu16_epi32(all));
 }
 #elif defined(GI_IS_SSE2)
 enum { GI_DOUBLES = 2 };
@@ -623,12 +716,14 @@ static inline void u_append_indices(uint32_t *to, unsigned bits, uint32_t base) 
         to += bits >> i & 1;
     }
 }
+#ifndef GI_IS_AVX2
 static inline void u_gather(uint32_t *to, const uint32_t *p, const uint32_t *index) {
     for (int i = 0; i < GI_DOUBLES; i++) to[i] = p[index[i]];
 }
 static inline void u_widen(uint32_t *to, const uint16_t *from) {
     for (int i = 0; i < GI_DOUBLES; i++) to[i] = from[i];
 }
+#endif
 #endif
 
 /* As R_SELECT, of what comparisons give. */
@@ -641,23 +736,3 @@ static inline void u_copy(uint32_t *to, const uint32_t *from) {
 static inline void u_fill(uint32_t *to, uint32_t value) {
     for (int i = 0; i < GI_DOUBLES; i++) to[i] = value;
 }
-
-/* ---------------------------------------------------------------- bits, memory */
-
-#if defined(__GNUC__)
-static inline void prefetch(const void *p) { __builtin_prefetch(p); }
-static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
-static inline int bit_count(unsigned bits) { return __builtin_popcount(bits); }
-#else
-static inline void prefetch(const void *p) { (void)p; }
-static inline int lowest_bit(unsigned bits) {
-    int index = 0;
-    while (!(bits >> index & 1)) index++;
-    return index;
-}
-static inline int bit_count(unsigned bits) {
-    int count = 0;
-    for (; bits != 0; bits &= bits - 1) count++;
-    return count;
-}
-#endif

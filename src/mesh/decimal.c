@@ -171,7 +171,7 @@ static const char *read_any(const char *p, const char *end, float *value) {
 const char *gi_decimal_read(const char *text, const char *end, float *value) {
     const char *p = text;
     bool negative = p < end && *p == '-';
-    if (p < end && (*p == '-' || *p == '+')) p++;
+    p += negative | (p < end && *p == '+');
     const char *first = p;
     uint64_t digits = 0; /* wraps when there are too many, which is found out below */
     p = gi_digits_read(p, end, &digits);
@@ -190,6 +190,6 @@ const char *gi_decimal_read(const char *text, const char *end, float *value) {
     } else {
         p = read_any(first, end, value);
     }
-    if (negative) *value = -*value;
+    *value *= (float)(1 - 2 * negative);
     return p;
 }

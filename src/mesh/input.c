@@ -124,6 +124,44 @@ void gi_mesh_forget(const GiMeshInput *input, const char *begin, const char *end
 
 /* ---------------------------------------------------------------- words */
 
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+/* The highest bit of each of eight bytes, where it is white space. */
+static inline uint64_t find_spaces(const char *p) {
+    const uint64_t ones = UINT64_C(0x0101010101010101), high = ones * 0x80;
+    uint64_t bytes;
+    memcpy(&bytes, p, sizeof bytes);
+    uint64_t low = bytes & ~high; /* no sum below carries into the next byte */
+    uint64_t control = (low + ones * (0x80 - '\t')) & ~(low + ones * (0x80 - '\r' - 1));
+    uint64_t space = ~((low ^ ones * ' ') + ones * 0x7f);
+    return (control | space) & ~bytes & high;
+}
+#endif
+
+const char *gi_mesh_skip_words(const char *p, const char *end, uint64_t count) {
+    if (count == 0) return p;
+    bool in_word = false;
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    uint64_t last = 0x80; /* whether the byte before these eight is white space */
+    for (; end - p >= 8; p += 8) {
+        uint64_t spaces = find_spaces(p), word_ends = spaces & ~(spaces << 8 | last);
+        uint64_t found = (word_ends >> 7) * UINT64_C(0x0101010101010101) >> 56;
+        if (found >= count) {
+            for (; count > 1; count--) word_ends &= word_ends - 1;
+            return p + __builtin_ctzll(word_ends) / 8;
+        }
+        count -= found;
+        last = spaces >> 56;
+    }
+    in_word = last == 0;
+#endif
+    for (; p < end; p++) {
+        bool is_space = gi_mesh_is_space(*p);
+        if (is_space && in_word && --count == 0) return p;
+        in_word = !is_space;
+    }
+    return in_word && count == 1 ? end : NULL;
+}
+
 GiMeshQuote gi_mesh_quote(const char *p, const char *end) {
     GiMeshQuote quote;
     size_t length = 0, limit = sizeof quote.text - 4;

@@ -78,6 +78,9 @@ static inline const char *gi_mesh_word_end(const char *p, const char *end) {
     return p;
 }
 
+/* The end of the count-th word from p, which lies between words; null when there are fewer. */
+const char *gi_mesh_skip_words(const char *p, const char *end, uint64_t count);
+
 /* A word for a message, printable and cut to fit. */
 typedef struct GiMeshQuote {
     char text[44];

@@ -41,11 +41,6 @@ static bool refuse_word(GiMeshInput *input, const Line *line, int i, const char 
 
 /* ---------------------------------------------------------------- properties */
 
-size_t gi_ply_type_size(GiPlyType type) {
-    static const unsigned char sizes[] = {1, 1, 2, 2, 4, 4, 4, 8, 0};
-    return sizes[type];
-}
-
 static GiPlyType find_type(const Line *line, int i) {
     static const char names[][2][8] = {{"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},
         {"ushort", "uint16"}, {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"},
@@ -178,11 +173,22 @@ static bool read_lines(GiMeshInput *input, GiPlyHeader *header) {
     return gi_mesh_refuse(input, 0, line.word[0], "the header names no format");
 }
 
+static size_t row_size(const GiPlyHeader *header, const GiPlyElement *element) {
+    size_t size = 0;
+    for (size_t i = 0; i < element->property_count; i++) {
+        const GiPlyProperty *property = &header->properties.data[element->first_property + i];
+        if (property->count_type != GI_PLY_NO_TYPE) return 0;
+        size += header->encoding == GI_PLY_ASCII ? 1 : gi_ply_type_size(property->type);
+    }
+    return size;
+}
+
 /* Whether there are vertices with a place and faces with corners. */
 static bool check(GiMeshInput *input, GiPlyHeader *header) {
     static const char *const names[] = {"vertex", "face"};
     for (size_t i = 0; i < header->elements.count; i++) {
-        const GiPlyElement *element = &header->elements.data[i];
+        GiPlyElement *element = &header->elements.data[i];
+        element->row_size = row_size(header, element);
         if (element->kind != GI_PLY_OTHER) header->known[element->kind] = element;
     }
     const char *at = header->body - 1; /* in the last line of the header */

@@ -135,8 +135,8 @@ static bool link_name(GiFileWriter *writer) {
     return false;
 }
 
-/* errno, or 0 when the writer is ready. */
-static int begin(GiFileWriter *writer) {
+/* errno, or 0 when the writer is ready. hidden: only with a nameless file. */
+static int begin(GiFileWriter *writer, bool hidden) {
     struct stat old;
     bool exists = stat(writer->path, &old) == 0, direct;
     if (exists && S_ISDIR(old.st_mode)) return EISDIR;
@@ -146,6 +146,7 @@ static int begin(GiFileWriter *writer) {
         return errno;
     }
     if (direct) {
+        if (hidden) return ENOTSUP;
         /* Appending, as the shell's `>>` into a descriptor would. */
         writer->fd = open(writer->path, O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY);
         return writer->fd < 0 ? errno : 0;
@@ -153,7 +154,7 @@ static int begin(GiFileWriter *writer) {
     /* A rename would replace a write-protected file without asking. */
     if (exists && faccessat(writer->folder, writer->name, W_OK, AT_EACCESS) != 0) return errno;
     writer->fd = open_nameless(writer);
-    if (writer->fd < 0) writer->fd = open_named(writer);
+    if (writer->fd < 0 && !hidden) writer->fd = open_named(writer);
     if (writer->fd < 0) return errno;
     /* Best effort: some file systems have no permissions. */
     if (exists && fchmod(writer->fd, old.st_mode & 0777) != 0) errno = 0;
@@ -170,13 +171,21 @@ static void end(GiFileWriter *writer) {
 
 GlintStatus gi_file_write_begin(GiFileWriter *writer, const char *path, GlintError *error) {
     *writer = (GiFileWriter){.path = path, .fd = -1, .folder = -1};
-    int code = begin(writer);
+    int code = begin(writer, false);
     if (code == 0) return GLINT_OK;
     end(writer);
     return report("write", path, code, error);
 }
 
-bool gi_file_write(GiFileWriter *writer, const void *bytes, size_t size) {
+bool gi_file_write_begin_hidden(GiFileWriter *writer, const char *path) {
+    *writer = (GiFileWriter){.path = path, .fd = -1, .folder = -1};
+    if (begin(writer, true) == 0) return true;
+    end(writer);
+    return false;
+}
+
+bool gi_file_write(void *user, const void *bytes, size_t size) {
+    GiFileWriter *writer = user;
     const char *from = bytes;
     while (size > 0 && writer->error == 0) {
         size_t part = size < (1u << 30) ? size : 1u << 30;

@@ -23,8 +23,14 @@ typedef struct GiFileWriter {
  * GLINT_ERROR_FILE there is nothing to undo; after GLINT_OK commit or abandon must follow. */
 GlintStatus gi_file_write_begin(GiFileWriter *writer, const char *path, GlintError *error);
 
-/* Appends. False after a failure, which commit reports. */
-bool gi_file_write(GiFileWriter *writer, const void *bytes, size_t size);
+/* The same where nothing shows before commit, not even when the process dies meanwhile, so that
+ * the file may be written for a long time. False: it cannot be done here, or at all, and there is
+ * nothing to undo. */
+bool gi_file_write_begin_hidden(GiFileWriter *writer, const char *path);
+
+/* Appends. False after a failure, which commit reports. A GlintSinkFn, whose user is the
+ * GiFileWriter. */
+bool gi_file_write(void *writer, const void *bytes, size_t size);
 
 /* Writes at a place of the file, for formats that do not come in order; not to be mixed with the
  * above. False after a failure, as above, and where there are no places (a pipe). */

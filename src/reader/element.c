@@ -232,28 +232,30 @@ const GiType gi_types[] = {
 
 /* Setting a bit makes small letters of capitals; that it also mixes up other characters does no
  * harm here. */
-static unsigned hash_name(const char *name) {
+static unsigned hash_name(GiSpan name) {
     unsigned hash = 0;
-    for (; *name != '\0'; name++) hash = hash * 3 + ((unsigned char)*name | 0x20u);
+    for (size_t i = 0; i < name.size; i++) hash = hash * 3 + ((unsigned char)name.data[i] | 0x20u);
     return (hash ^ hash >> 7) % GI_ELEMENT_SLOT_COUNT;
 }
 
-static bool same_name(const char *a, const char *b) {
-    while (*a != '\0' && (*a == *b || gi_lower(*a) == gi_lower(*b))) a++, b++;
-    return *a == '\0' && *b == '\0';
+static bool same_name(const char *a, GiSpan b) {
+    size_t i = 0;
+    while (i < b.size && a[i] != '\0' && gi_lower(a[i]) == gi_lower(b.data[i])) i++;
+    return i == b.size && a[i] == '\0';
 }
 
 void gi_element_index_init(GiElementIndex *index) {
     memset(index, 0, sizeof *index);
     for (unsigned row = 0; gi_elements[row].name != NULL; row++) {
-        uint8_t *first = &index->first[hash_name(gi_elements[row].name)];
+        GiSpan name = gi_span(gi_elements[row].name);
+        uint8_t *first = &index->first[hash_name(name)];
+        index->sizes[row] = (uint8_t)name.size;
         index->next[row] = *first;
         *first = (uint8_t)(row + 1);
     }
 }
 
-const GiElement *gi_element_find(
-    const GiElementIndex *index, const char *name, GiContexts contexts) {
+const GiElement *gi_element_find(const GiElementIndex *index, GiSpan name, GiContexts contexts) {
     for (unsigned row = index->first[hash_name(name)]; row != 0; row = index->next[row - 1]) {
         const GiElement *element = &gi_elements[row - 1];
         if ((element->contexts & contexts) != 0 && same_name(element->name, name)) return element;
@@ -261,11 +263,11 @@ const GiElement *gi_element_find(
     return NULL;
 }
 
-const GiElement *gi_element_guess(GiElementIndex *index, const char *name, uint64_t contexts) {
+const GiElement *gi_element_guess(GiElementIndex *index, GiSpan name, GiContexts contexts) {
     uint8_t *guess = &index->after[index->last];
     const GiElement *element = *guess > 0 ? &gi_elements[*guess - 1] : NULL;
     if (element == NULL || (element->contexts & contexts) == 0 ||
-        strcmp(element->name, name) != 0) {
+        name.size != index->sizes[*guess - 1] || memcmp(name.data, element->name, name.size) != 0) {
         element = gi_element_find(index, name, contexts);
         if (element == NULL) return NULL;
         *guess = (uint8_t)(element - gi_elements + 1);
@@ -274,10 +276,10 @@ const GiElement *gi_element_guess(GiElementIndex *index, const char *name, uint6
     return element;
 }
 
-const GiType *gi_type_find(const char *name, GiKind kind) {
+const GiType *gi_type_find(GiSpan name, GiKind kind) {
     for (const GiType *type = gi_types; type->name != NULL; type++) {
-        if (type->kind != kind || type->name[0] != name[0]) continue;
-        if (strcmp(type->name, name) == 0) return type;
+        if (type->kind != kind || name.size == 0 || type->name[0] != name.data[0]) continue;
+        if (gi_span_is(name, type->name)) return type;
     }
     return NULL;
 }

@@ -4,6 +4,8 @@
  * completion, which is why a row also carries its default as text and a line of help. */
 #pragma once
 
+#include "reader/span.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -182,6 +184,7 @@ enum { GI_ELEMENT_LIMIT = 128, GI_ELEMENT_SLOT_COUNT = 256 };
 typedef struct GiElementIndex {
     uint8_t first[GI_ELEMENT_SLOT_COUNT]; /* row + 1 */
     uint8_t next[GI_ELEMENT_LIMIT];       /* row + 1 */
+    uint8_t sizes[GI_ELEMENT_LIMIT];      /* of the names */
     uint8_t after[GI_ELEMENT_LIMIT + 1];  /* row + 1 of what came after a row last time */
     uint8_t last;                         /* row + 1 */
 } GiElementIndex;
@@ -189,14 +192,13 @@ typedef struct GiElementIndex {
 void gi_element_index_init(GiElementIndex *index);
 
 /* The element of that name (in any case) that may stand in one of the contexts, or null. */
-const GiElement *gi_element_find(
-    const GiElementIndex *index, const char *name, GiContexts contexts);
+const GiElement *gi_element_find(const GiElementIndex *index, GiSpan name, GiContexts contexts);
 
 /* The same for the next element of a file: elements mostly follow each other as they did before. */
-const GiElement *gi_element_guess(GiElementIndex *index, const char *name, uint64_t contexts);
+const GiElement *gi_element_guess(GiElementIndex *index, GiSpan name, GiContexts contexts);
 
 /* Name exact, without the package. Null when the kind has no such type. */
-const GiType *gi_type_find(const char *name, GiKind kind);
+const GiType *gi_type_find(GiSpan name, GiKind kind);
 
 /* "a point", "a surface", ... */
 const char *gi_kind_text(GiKind kind);

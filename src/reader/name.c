@@ -20,22 +20,22 @@ void gi_names_reset(GiNames *names) {
     names->slot_count = 0;
 }
 
-static uint32_t hash_text(const GiNames *names, const char *text) {
+static uint32_t hash_text(const GiNames *names, GiSpan text) {
     uint32_t hash = names->seed ^ UINT32_C(2166136261); /* FNV-1a, with bits from above mixed in */
-    for (; *text != '\0'; text++) {
-        hash = (hash ^ (unsigned char)*text) * UINT32_C(16777619);
+    for (size_t i = 0; i < text.size; i++) {
+        hash = (hash ^ (unsigned char)text.data[i]) * UINT32_C(16777619);
         hash ^= hash >> 15;
     }
     return hash;
 }
 
 /* The slot of the name, or the empty slot where it would go. */
-static uint32_t *find_slot(const GiNames *names, const char *name, uint32_t hash) {
+static uint32_t *find_slot(const GiNames *names, GiSpan name, uint32_t hash) {
     for (size_t i = hash;; i++) {
         uint32_t *slot = &names->slots[i & (names->slot_count - 1)];
         if (*slot == 0) return slot;
         const GiNamed *entry = &names->entries.data[*slot - 1];
-        if (entry->hash == hash && strcmp(names->text.data + entry->text, name) == 0) return slot;
+        if (entry->hash == hash && gi_span_is(name, names->text.data + entry->text)) return slot;
     }
 }
 
@@ -55,8 +55,8 @@ static bool grow(GiNames *names) {
     return true;
 }
 
-bool gi_names_set(GiNames *names, const char *name, GiNamed named) {
-    size_t size = strlen(name) + 1;
+bool gi_names_set(GiNames *names, GiSpan name, GiNamed named) {
+    size_t size = name.size + 1;
     if (names->entries.count * 2 >= names->slot_count && !grow(names)) return false;
     named.hash = hash_text(names, name);
     uint32_t *slot = find_slot(names, name, named.hash);
@@ -71,19 +71,20 @@ bool gi_names_set(GiNames *names, const char *name, GiNamed named) {
     }
     named.text = (uint32_t)names->text.count;
     if (!gi_array_push(names->memory, &names->entries, named)) return false;
-    memcpy(names->text.data + names->text.count, name, size);
+    memcpy(names->text.data + names->text.count, name.data, name.size);
+    names->text.data[names->text.count + name.size] = '\0';
     names->text.count += size;
     *slot = (uint32_t)names->entries.count;
     return true;
 }
 
-const GiNamed *gi_names_get(const GiNames *names, const char *name) {
+const GiNamed *gi_names_get(const GiNames *names, GiSpan name) {
     if (names->slot_count == 0) return NULL;
     uint32_t slot = *find_slot(names, name, hash_text(names, name));
     return slot == 0 ? NULL : &names->entries.data[slot - 1];
 }
 
-bool gi_names_intern(GiNames *names, const char *name, uint32_t *number) {
+bool gi_names_intern(GiNames *names, GiSpan name, uint32_t *number) {
     const GiNamed *entry = gi_names_get(names, name);
     if (entry != NULL) {
         *number = (uint32_t)(entry - names->entries.data);
@@ -93,9 +94,9 @@ bool gi_names_intern(GiNames *names, const char *name, uint32_t *number) {
     return gi_names_set(names, name, (GiNamed){.kind = GI_KIND_STRING});
 }
 
-const char *gi_names_suggest(const GiNames *names, const char *name) {
+const char *gi_names_suggest(const GiNames *names, GiSpan name) {
     enum { LOOK_BACK = 10000 }; /* bounds the time of a file with very many names and errors */
-    GiSuggestion suggestion = gi_suggestion_begin(name, strlen(name));
+    GiSuggestion suggestion = gi_suggestion_begin(name.data, name.size);
     size_t count = names->entries.count, first = count > LOOK_BACK ? count - LOOK_BACK : 0;
     for (size_t i = count; i > first; i--) {
         gi_suggestion_offer(&suggestion, names->text.data + names->entries.data[i - 1].text);

@@ -4,6 +4,7 @@
 
 #include "base/array.h"
 #include "reader/element.h"
+#include "reader/span.h"
 #include "shape/shape.h"
 
 typedef struct GiNamed {
@@ -29,14 +30,14 @@ void gi_names_init(GiNames *names, GiMemory *memory);
 void gi_names_reset(GiNames *names);
 
 /* Remembers, or replaces. False when memory is short. */
-bool gi_names_set(GiNames *names, const char *name, GiNamed named);
+bool gi_names_set(GiNames *names, GiSpan name, GiNamed named);
 
 /* Null when there is none. Valid until the next set. */
-const GiNamed *gi_names_get(const GiNames *names, const char *name);
+const GiNamed *gi_names_get(const GiNames *names, GiSpan name);
 
 /* The number of the name's entry, which it gets now when there is none. False when memory is short.
  */
-bool gi_names_intern(GiNames *names, const char *name, uint32_t *number);
+bool gi_names_intern(GiNames *names, GiSpan name, uint32_t *number);
 
 /* The nearest name, or null. */
-const char *gi_names_suggest(const GiNames *names, const char *name);
+const char *gi_names_suggest(const GiNames *names, GiSpan name);

@@ -21,7 +21,7 @@ static uint32_t group_of(const GiFrame *parent) {
 void gi_object_name(GiReader *reader, const GiFrame *frame, GiNamed named) {
     const char *name = reader->tags.data + frame->name;
     if (name[0] == '\0') return;
-    if (!gi_names_set(&reader->names, name, named)) gi_reader_out_of_memory(reader);
+    if (!gi_names_set(&reader->names, gi_span(name), named)) gi_reader_out_of_memory(reader);
 }
 
 void gi_object_name_value(GiReader *reader, const GiFrame *frame, GiVec value) {

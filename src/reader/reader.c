@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The outer loop: bytes from the source through the window into expat, whose events go to tree.c.
- * Nothing of the document is kept but the open elements and what is named. */
+ * The outer loop: bytes from the source through the window into the parser, whose events go to
+ * tree.c. Nothing of the document is kept but the open elements and what is named. */
 #include "reader/reader.h"
 
 #include "base/error.h"
@@ -10,108 +10,17 @@
 
 enum { CHUNK_SIZE = 256 * 1024, TOKEN_LIMIT = 64 * 1024 * 1024 };
 
-/* ---------------------------------------------------------------- memory of the parser */
-
-/* Expat's allocator has no user pointer: the memory is found through the thread, and each block
- * notes where it came from and how large it is. */
-static _Thread_local GiMemory *parser_memory;
-
-typedef union Header {
-    struct {
-        GiMemory *memory;
-        size_t size;
-    } block;
-    max_align_t align;
-} Header;
-
-static void *resize_block(void *pointer, size_t size) {
-    if (size > SIZE_MAX - sizeof(Header)) return NULL;
-    Header *old = pointer != NULL ? (Header *)pointer - 1 : NULL;
-    GiMemory *memory = old != NULL ? old->block.memory : parser_memory;
-    Header *header = gi_memory_resize(
-        memory, old, old != NULL ? old->block.size + sizeof(Header) : 0, size + sizeof(Header));
-    if (header == NULL) return NULL;
-    header->block.memory = memory;
-    header->block.size = size;
-    return header + 1;
-}
-
-static void *allocate_block(size_t size) { return resize_block(NULL, size); }
-
-static void free_block(void *pointer) {
-    if (pointer == NULL) return;
-    Header *header = (Header *)pointer - 1;
-    gi_memory_free(header->block.memory, header, header->block.size + sizeof(Header));
-}
-
 /* ---------------------------------------------------------------- stopping */
 
 void gi_reader_stop(GiReader *reader) {
     if (reader->stopped) return;
     reader->stopped = true;
-    XML_StopParser(reader->parser, XML_FALSE);
+    if (reader->parser != NULL) XML_StopParser(reader->parser, XML_FALSE);
 }
 
 void gi_reader_out_of_memory(GiReader *reader) {
     reader->out_of_memory = true;
     gi_reader_stop(reader);
-}
-
-/* ---------------------------------------------------------------- what a scene may not have */
-
-static GiPlace current_place(const GiReader *reader) {
-    return (GiPlace){.offset = XML_GetCurrentByteIndex(reader->parser)};
-}
-
-/* Entities can stand for gigabytes, or for other files; no scene needs them. */
-static void XMLCALL on_entity(void *user, const XML_Char *name, int is_parameter,
-    const XML_Char *value, int value_length, const XML_Char *base, const XML_Char *system_id,
-    const XML_Char *public_id, const XML_Char *notation) {
-    GiReader *reader = user;
-    (void)is_parameter, (void)value, (void)value_length, (void)base;
-    (void)system_id, (void)public_id, (void)notation;
-    if (reader->stopped) return;
-    char quote[GI_QUOTE_SIZE];
-    gi_report_add(&reader->report, current_place(reader), 1,
-        "a scene cannot declare entities: `%s`", gi_quote(quote, name, strlen(name)));
-    gi_reader_stop(reader);
-}
-
-/* Default attributes are attributes that nobody wrote. */
-static void XMLCALL on_attribute_list(void *user, const XML_Char *element, const XML_Char *name,
-    const XML_Char *type, const XML_Char *value, int required) {
-    GiReader *reader = user;
-    (void)name, (void)type, (void)value, (void)required;
-    if (reader->stopped) return;
-    char quote[GI_QUOTE_SIZE];
-    gi_report_add(&reader->report, current_place(reader), 1,
-        "a scene cannot declare attributes: those of `%s`",
-        gi_quote(quote, element, strlen(element)));
-    gi_reader_stop(reader);
-}
-
-static void XMLCALL on_skipped_entity(void *user, const XML_Char *name, int is_parameter) {
-    GiReader *reader = user;
-    if (reader->stopped || is_parameter) return;
-    char quote[GI_QUOTE_SIZE];
-    gi_report_add(&reader->report, current_place(reader), 1,
-        "unknown entity `&%s;`: only &lt; &gt; &amp; &quot; and &apos; are known",
-        gi_quote(quote, name, strlen(name)));
-}
-
-static void XMLCALL on_declaration(
-    void *user, const XML_Char *version, const XML_Char *encoding, int standalone) {
-    GiReader *reader = user;
-    (void)version, (void)standalone;
-    if (encoding == NULL) return;
-    size_t i = 0;
-    for (; i + 1 < sizeof reader->encoding && encoding[i] != '\0'; i++) {
-        reader->encoding[i] = gi_lower(encoding[i]);
-    }
-    if (strcmp(reader->encoding, "iso-8859-1") == 0) {
-        reader->window.encoding = GI_ENCODING_LATIN1;
-    }
-    memcpy(reader->encoding, encoding, i);
 }
 
 /* ---------------------------------------------------------------- window and places */
@@ -138,9 +47,10 @@ static int64_t window_end(const GiReader *reader) {
     return reader->window.base + (int64_t)reader->window.size;
 }
 
-/* The first byte that expat has not dealt with. */
+/* The first byte that the scanner or expat has not dealt with. */
 static int64_t parsed_end(const GiReader *reader) {
-    int64_t offset = XML_GetCurrentByteIndex(reader->parser), end = window_end(reader);
+    if (reader->parser == NULL) return reader->scanner.next;
+    int64_t offset = gi_parser_offset(reader), end = window_end(reader);
     return offset < reader->window.base ? reader->window.base : offset > end ? end : offset;
 }
 
@@ -175,7 +85,7 @@ static GlintStatus report_cancelled(GlintError *error) {
 static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintError *error) {
     const GiReaderSource *source = feed->source;
     const GlintMonitor *monitor = source->monitor;
-    if (!gi_window_reserve(&reader->window, wanted)) return gi_error_memory(error);
+    if (!gi_window_reserve(&reader->window, wanted + 1)) return gi_error_memory(error);
     for (size_t got = 0; got < wanted && !feed->ended;) {
         if (is_cancelled(monitor)) return report_cancelled(error);
         size_t size = wanted - got < CHUNK_SIZE ? wanted - got : CHUNK_SIZE;
@@ -189,6 +99,7 @@ static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintE
         feed->ended = count == 0;
         got += (size_t)count;
         reader->window.size += (size_t)count;
+        reader->window.data[reader->window.size] = 0; /* where the scanner stops */
         feed->total += count;
     }
     if (monitor != NULL && monitor->progress != NULL) {
@@ -197,6 +108,36 @@ static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintE
         monitor->progress(monitor->user, GLINT_PHASE_READ, fraction < 1 ? fraction : 1);
     }
     return GLINT_OK;
+}
+
+/* Scans what is in the window. GI_SCAN_MORE only where there is more, or all is done. */
+static GiScanStatus scan_window(GiReader *reader, const Feed *feed) {
+    const GiWindow *window = &reader->window;
+    size_t from = (size_t)(reader->scanner.next - window->base);
+    GiScanStatus status = gi_scan(
+        &reader->scanner, (const char *)window->data + from, window->size - from, &reader->tape);
+    if (status == GI_SCAN_MEMORY) return status;
+    gi_tape_play(reader, &reader->tape);
+    bool done =
+        reader->scanner.next == window_end(reader) && gi_scanner_is_complete(&reader->scanner);
+    return feed->ended && !done ? GI_SCAN_STRANGE : status;
+}
+
+/* Hands what is new in the window, from an offset on, to the scanner or expat. False when neither
+ * can go on; memory may be short then, or the reader stopped. */
+static bool parse_window(GiReader *reader, const Feed *feed, int64_t from) {
+    if (reader->parser == NULL) {
+        GiScanStatus status = scan_window(reader, feed);
+        if (status == GI_SCAN_MORE || reader->stopped) return !reader->stopped;
+        if (status == GI_SCAN_MEMORY || !gi_parser_open(reader)) {
+            gi_reader_out_of_memory(reader);
+            return false;
+        }
+        from = reader->scanner.next;
+    }
+    size_t begin = (size_t)(from - reader->window.base);
+    return gi_parser_feed(
+        reader, reader->window.data + begin, reader->window.size - begin, feed->ended);
 }
 
 static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
@@ -214,17 +155,13 @@ static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
             return GLINT_OK;
         }
         if (first && wanted < 4) wanted = 4; /* the encoding shows in the first bytes */
-        slide_window(reader, wanted);
-        size_t old_size = reader->window.size;
+        slide_window(reader, wanted + 1);
+        int64_t from = window_end(reader);
         GlintStatus status = read_more(reader, feed, wanted, error);
         if (status != GLINT_OK) return status;
         if (first) gi_window_detect(&reader->window);
         first = false;
-        parser_memory = reader->memory;
-        enum XML_Status parsed =
-            XML_Parse(reader->parser, (const char *)reader->window.data + old_size,
-                (int)(reader->window.size - old_size), feed->ended);
-        if (parsed != XML_STATUS_ERROR) continue;
+        if (parse_window(reader, feed, from)) continue;
         if (!reader->stopped) {
             int64_t place = parsed_end(reader);
             /* The message may look at what follows, and shows the rest of the line. */
@@ -239,21 +176,6 @@ static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
     return GLINT_OK;
 }
 
-static bool open_parser(GiReader *reader) {
-    XML_Memory_Handling_Suite suite = {allocate_block, resize_block, free_block};
-    parser_memory = reader->memory;
-    reader->parser = XML_ParserCreate_MM(NULL, &suite, NULL);
-    if (reader->parser == NULL) return false;
-    XML_SetUserData(reader->parser, reader);
-    XML_SetElementHandler(reader->parser, gi_tree_start, gi_tree_end);
-    XML_SetCharacterDataHandler(reader->parser, gi_tree_text);
-    XML_SetEntityDeclHandler(reader->parser, on_entity);
-    XML_SetAttlistDeclHandler(reader->parser, on_attribute_list);
-    XML_SetSkippedEntityHandler(reader->parser, on_skipped_entity);
-    XML_SetXmlDeclHandler(reader->parser, on_declaration);
-    return true;
-}
-
 static void open_reader(GiReader *reader, GiScene *scene, const GiReaderSource *source) {
     memset(reader, 0, sizeof *reader);
     reader->source = source;
@@ -261,6 +183,7 @@ static void open_reader(GiReader *reader, GiScene *scene, const GiReaderSource *
     reader->memory = scene->memory;
     gi_element_index_init(&reader->elements);
     gi_window_init(&reader->window, scene->memory);
+    gi_scanner_init(&reader->scanner, scene->memory);
     gi_report_init(&reader->report, scene->memory, &reader->window);
     gi_names_init(&reader->names, scene->memory);
     gi_names_init(&reader->strings, scene->memory);
@@ -273,7 +196,9 @@ static void open_reader(GiReader *reader, GiScene *scene, const GiReaderSource *
 }
 
 static void close_reader(GiReader *reader) {
-    if (reader->parser != NULL) XML_ParserFree(reader->parser);
+    gi_parser_close(reader);
+    gi_scanner_reset(&reader->scanner);
+    gi_array_free(reader->memory, &reader->tape.entries);
     gi_array_free(reader->memory, &reader->frames);
     gi_array_free(reader->memory, &reader->tags);
     gi_array_free(reader->memory, &reader->cameras);
@@ -291,7 +216,8 @@ GlintStatus gi_reader_load(
     GiReader *reader = gi_memory_allocate(scene->memory, sizeof *reader);
     if (reader == NULL) return gi_error_memory(error);
     open_reader(reader, scene, source);
-    GlintStatus status = open_parser(reader) ? parse(reader, &feed, error) : gi_error_memory(error);
+    bool open = !source->expat_only || gi_parser_open(reader);
+    GlintStatus status = open ? parse(reader, &feed, error) : gi_error_memory(error);
     if (status == GLINT_OK && reader->file_status != GLINT_OK) {
         status = reader->file_status == GLINT_CANCELLED ? report_cancelled(error)
                                                         : gi_error_set(error, reader->file_status,

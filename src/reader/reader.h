@@ -17,6 +17,7 @@ typedef struct GiReaderSource {
     size_t chunk_size;    /* bytes handed to the parser at once; 0: a good size */
     int thread_count;     /* for loading meshes; 0: one per core */
     bool without_files;   /* other files are not opened: each counts as found and empty */
+    bool expat_only;      /* the scanner is not used, which must make no difference but in time */
 } GiReaderSource;
 
 typedef struct GiReaderResult {

@@ -10,6 +10,7 @@
 #include "reader/name.h"
 #include "reader/reader.h"
 #include "reader/report.h"
+#include "reader/scan.h"
 #include "scene/scene.h"
 
 #include <expat.h>
@@ -61,7 +62,11 @@ typedef struct GiReader {
     const GiReaderSource *source;
     GiScene *scene;
     GiMemory *memory;
-    XML_Parser parser;
+    GiScanner scanner;
+    GiTape tape;
+    XML_Parser parser;                /* null: the scanner still understands the file */
+    int64_t parser_shift;             /* from the parser's offsets to those of the file */
+    GI_ARRAY(GiAttribute) attributes; /* of the start tag that is being handled */
     GiElementIndex elements;
     GiWindow window;
     GiReport report;
@@ -121,19 +126,38 @@ static inline void gi_reader_put(GiReader *reader, GiSlot slot, GiVec value, GiP
 void gi_reader_stop(GiReader *reader);
 void gi_reader_out_of_memory(GiReader *reader);
 
-/* ---- tree.c: the events of the parser */
-void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **attributes);
-void XMLCALL gi_tree_end(void *user, const XML_Char *tag);
-void XMLCALL gi_tree_text(void *user, const XML_Char *text, int size);
+/* ---- tape.c */
+void gi_tape_play(GiReader *reader, const GiTape *tape);
+
+/* ---- parser.c */
+/* Makes expat ready to go on where the scanner stopped. False when memory is short. */
+bool gi_parser_open(GiReader *reader);
+void gi_parser_close(GiReader *reader);
+/* Hands bytes to expat; `last`: the file ends with them. False when it stopped, for what it says is
+ * malformed or since the reader stopped it. */
+bool gi_parser_feed(GiReader *reader, const void *bytes, size_t size, bool last);
+/* Where the event that is being handled, or what is wrong, begins in the file. */
+int64_t gi_parser_offset(const GiReader *reader);
+
+/* ---- tree.c: the events of a document, each with its offset in the file */
+void gi_tree_start(
+    GiReader *reader, GiSpan tag, const GiAttribute *list, int count, int64_t offset);
+void gi_tree_end(GiReader *reader, int64_t end); /* the offset behind the tag */
+void gi_tree_text(GiReader *reader, GiSpan text, int64_t offset);
+/* An element's whole content, read already. False when it is to be given as text, since it is not
+ * the value that belongs there. */
+bool gi_tree_numbers(GiReader *reader, GiVec value, int count);
 /* The place of an attribute's name (or of its value) in the start tag that is being handled; length
  * in characters. The tag itself when it cannot be found. */
 GiPlace gi_tree_attribute(GiReader *reader, int index, bool value, int *length);
 
 /* ---- value.c: text to numbers */
 void gi_value_begin(GiReader *reader);
-void gi_value_append(GiReader *reader, const char *text, size_t size, int64_t offset);
+void gi_value_append(GiReader *reader, GiSpan piece, int64_t offset);
 /* Reads the text of the element as its kind. False, with the error reported, when it is wrong. */
 bool gi_value_finish(GiReader *reader, const GiFrame *frame, GiVec *value);
+/* The value of the element, when it is of its kind; otherwise false, and nothing is reported. */
+bool gi_value_take(GiReader *reader, const GiElement *element, GiVec value, int count);
 /* Whether a value passes the element's check; otherwise reports. */
 bool gi_value_check(
     GiReader *reader, const GiElement *element, GiVec value, GiPlace place, int length);

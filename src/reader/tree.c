@@ -59,21 +59,20 @@ GiPlace gi_tree_attribute(GiReader *reader, int index, bool value, int *length) 
 
 /* ---------------------------------------------------------------- frames */
 
-static bool push_text(GiReader *reader, const char *text, size_t size, uint32_t *index) {
+static bool push_text(GiReader *reader, GiSpan text, uint32_t *index) {
     if (reader->tags.count > UINT32_MAX / 2 ||
-        !gi_array_reserve(reader->memory, &reader->tags, size + 1)) {
+        !gi_array_reserve(reader->memory, &reader->tags, text.size + 1)) {
         return false;
     }
     *index = (uint32_t)reader->tags.count;
-    memcpy(reader->tags.data + *index, text, size);
-    reader->tags.data[*index + size] = '\0';
-    reader->tags.count += size + 1;
+    memcpy(reader->tags.data + *index, text.data, text.size);
+    reader->tags.data[*index + text.size] = '\0';
+    reader->tags.count += text.size + 1;
     return true;
 }
 
-static GiFrame *push_frame(GiReader *reader, const char *tag) {
+static GiFrame *push_frame(GiReader *reader, GiSpan tag, int64_t offset) {
     enum { TAG_SHOWN = 80 };
-    int64_t offset = XML_GetCurrentByteIndex(reader->parser);
     if (reader->frames.count >= GI_DEPTH_LIMIT) {
         gi_report_add(&reader->report, (GiPlace){.offset = offset}, 1,
             "elements are nested more than %d deep", GI_DEPTH_LIMIT);
@@ -87,8 +86,8 @@ static GiFrame *push_frame(GiReader *reader, const char *tag) {
         return NULL;
     }
     char *copy = reader->tags.data + reader->tags.count;
-    size_t length = 0;
-    for (; length < TAG_SHOWN && tag[length] != '\0'; length++) copy[length] = tag[length];
+    size_t length = tag.size < TAG_SHOWN ? tag.size : TAG_SHOWN;
+    for (size_t i = 0; i < length; i++) copy[i] = tag.data[i];
     copy[length] = '\0';
     /* Written where it stays: copying what was just put together member by member stalls. */
     GiFrame *frame = &reader->frames.data[reader->frames.count++];
@@ -112,22 +111,25 @@ static void place_words(const GiFrame *parent, char *buffer, size_t size) {
     gi_context_text(contexts, buffer, size);
 }
 
+static bool is_scene(GiSpan tag) {
+    return tag.size == 5 && gi_edit_distance(tag.data, 5, "scene", 5, 0) == 0;
+}
+
 /* What is said of an element that may not stand here. Returns the element that was probably meant,
  * so that its content is still checked; null when there is no telling. */
 static const GiElement *report_element(
-    GiReader *reader, const GiFrame *parent, const char *tag, GiPlace place) {
+    GiReader *reader, const GiFrame *parent, GiSpan tag, GiPlace place) {
     if (gi_report_is_full(&reader->report)) {
         reader->report.error_count++;
         return NULL;
     }
     GiReport *report = &reader->report;
-    size_t size = strlen(tag);
-    int length = 1 + gi_text_length(tag, size < 80 ? size : 80);
+    int length = 1 + gi_text_length(tag.data, tag.size < 80 ? tag.size : 80);
     char quote[GI_QUOTE_SIZE], here[240], there[240];
-    gi_quote(quote, tag, size);
+    gi_quote(quote, tag.data, tag.size);
     if (parent == NULL) {
         gi_report_add(report, place, length, "the root element must be `scene`; found `%s`", quote);
-        GiSuggestion root = gi_suggestion_begin(tag, size);
+        GiSuggestion root = gi_suggestion_begin(tag.data, tag.size);
         gi_suggestion_offer(&root, "scene");
         return root.best != NULL ? &gi_elements[0] : NULL;
     }
@@ -138,7 +140,7 @@ static const GiElement *report_element(
     }
     place_words(parent, here, sizeof here);
     const GiElement *elsewhere = gi_element_find(&reader->elements, tag, GI_ANYWHERE);
-    if (elsewhere == NULL && size == 5 && gi_edit_distance(tag, 5, "scene", 5, 0) == 0) {
+    if (elsewhere == NULL && is_scene(tag)) {
         gi_report_add(
             report, place, length, "`scene` is the root element and cannot stand in %s", here);
         return NULL;
@@ -158,20 +160,21 @@ static const GiElement *report_element(
         }
         return NULL;
     }
-    GiSuggestion suggestion = gi_suggestion_begin(tag, size);
+    GiSuggestion suggestion = gi_suggestion_begin(tag.data, tag.size);
     for (const GiElement *e = gi_elements; e->name != NULL; e++) {
         if ((e->contexts & parent->contexts) != 0) gi_suggestion_offer(&suggestion, e->name);
     }
     if (suggestion.best != NULL) {
         gi_report_add(report, place, length, "unknown element `%s` in %s: did you mean `%s`?",
             quote, here, suggestion.best);
-        return gi_element_find(&reader->elements, suggestion.best, parent->contexts);
+        return gi_element_find(&reader->elements, gi_span(suggestion.best), parent->contexts);
     }
     for (const GiElement *e = gi_elements; e->name != NULL; e++) {
         gi_suggestion_offer(&suggestion, e->name);
     }
     if (suggestion.best != NULL && strcmp(suggestion.best, "scene") != 0) {
-        const GiElement *near = gi_element_find(&reader->elements, suggestion.best, GI_ANYWHERE);
+        const GiElement *near =
+            gi_element_find(&reader->elements, gi_span(suggestion.best), GI_ANYWHERE);
         gi_context_text(near->contexts, there, sizeof there);
         gi_report_add(report, place, length,
             "unknown element `%s` in %s: `%s` is near, but belongs in %s", quote, here, near->name,
@@ -185,12 +188,11 @@ static const GiElement *report_element(
 /* ---------------------------------------------------------------- attributes */
 
 typedef struct Attributes {
-    const char *name, *ref, *type, *dialect; /* null: not given */
+    GiSpan name, ref, type, dialect; /* data null: not given */
     int name_index, ref_index, type_index, dialect_index;
 } Attributes;
 
-static void report_attribute(
-    GiReader *reader, const GiElement *element, const char *name, int index) {
+static void report_attribute(GiReader *reader, const GiElement *element, GiSpan name, int index) {
     if (gi_report_is_full(&reader->report)) {
         reader->report.error_count++;
         return;
@@ -199,8 +201,8 @@ static void report_attribute(
     int length;
     GiPlace place = gi_tree_attribute(reader, index, false, &length);
     char quote[GI_QUOTE_SIZE];
-    gi_quote(quote, name, strlen(name));
-    GiSuggestion suggestion = gi_suggestion_begin(name, strlen(name));
+    gi_quote(quote, name.data, name.size);
+    GiSuggestion suggestion = gi_suggestion_begin(name.data, name.size);
     gi_suggestion_offer(&suggestion, "name");
     if (!scene) gi_suggestion_offer(&suggestion, "ref");
     if (object && !scene) gi_suggestion_offer(&suggestion, "type");
@@ -218,26 +220,24 @@ static void report_attribute(
                  : "name and ref, and its value as text");
 }
 
-static bool is(const char *a, const char *b) { return a[0] == b[0] && strcmp(a, b) == 0; }
-
-static bool read_attributes(
-    GiReader *reader, const GiElement *element, const XML_Char **list, Attributes *attributes) {
+static bool read_attributes(GiReader *reader, const GiElement *element, const GiAttribute *list,
+    int count, Attributes *attributes) {
     bool scene = element->kind == GI_KIND_SCENE, good = true;
-    for (int i = 0; list[2 * i] != NULL; i++) {
-        const char *name = list[2 * i], *value = list[2 * i + 1];
+    for (int i = 0; i < count; i++) {
+        GiSpan name = list[i].name, value = list[i].value;
         bool long_value = false;
-        if (is(name, "type") && gi_kind_is_object(element->kind) && !scene) {
+        if (gi_span_is(name, "type") && gi_kind_is_object(element->kind) && !scene) {
             attributes->type = value;
             attributes->type_index = i;
-        } else if (is(name, "ref") && !scene) {
+        } else if (gi_span_is(name, "ref") && !scene) {
             attributes->ref = value;
             attributes->ref_index = i;
-            long_value = strlen(value) > GI_NAME_LIMIT;
-        } else if (is(name, "name")) {
+            long_value = value.size > GI_NAME_LIMIT;
+        } else if (gi_span_is(name, "name")) {
             attributes->name = value;
             attributes->name_index = i;
-            long_value = strlen(value) > GI_NAME_LIMIT;
-        } else if (is(name, "dialect") && scene) {
+            long_value = value.size > GI_NAME_LIMIT;
+        } else if (gi_span_is(name, "dialect") && scene) {
             attributes->dialect = value;
             attributes->dialect_index = i;
         } else {
@@ -247,25 +247,29 @@ static bool read_attributes(
         if (long_value) {
             int length;
             GiPlace place = gi_tree_attribute(reader, i, true, &length);
-            gi_report_add(&reader->report, place, length, "the %s of %s is longer than %d bytes",
-                name, element->name, GI_NAME_LIMIT);
-            if (name[0] == 'n') attributes->name = NULL;
+            gi_report_add(&reader->report, place, length, "the %.*s of %s is longer than %d bytes",
+                (int)name.size, name.data, element->name, GI_NAME_LIMIT);
+            if (name.data[0] == 'n') attributes->name.data = NULL;
             good = false;
         }
     }
     return good;
 }
 
-static void read_dialect(GiReader *reader, const char *name, int index) {
-    if (glint_dialect_from_name(name, &reader->dialect)) return;
+static void read_dialect(GiReader *reader, GiSpan name, int index) {
+    for (int i = 0; i < GLINT_DIALECT_COUNT; i++) {
+        if (!gi_span_is(name, glint_dialect_name((GlintDialect)i))) continue;
+        reader->dialect = (GlintDialect)i;
+        return;
+    }
     int length;
     GiPlace place = gi_tree_attribute(reader, index, true, &length);
     char quote[GI_QUOTE_SIZE];
-    GiSuggestion suggestion = gi_suggestion_begin(name, strlen(name));
+    GiSuggestion suggestion = gi_suggestion_begin(name.data, name.size);
     for (int i = 0; i < GLINT_DIALECT_COUNT; i++) {
         gi_suggestion_offer(&suggestion, glint_dialect_name((GlintDialect)i));
     }
-    gi_quote(quote, name, strlen(name));
+    gi_quote(quote, name.data, name.size);
     if (suggestion.best != NULL) {
         gi_report_add(&reader->report, place, length,
             "unknown dialect \"%s\": did you mean \"%s\"?", quote, suggestion.best);
@@ -281,12 +285,12 @@ static void read_dialect(GiReader *reader, const char *name, int index) {
  * that what stands inside is judged by it. */
 static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attributes) {
     GiKind kind = frame->element->kind;
-    const char *name = attributes->type;
+    GiSpan name = attributes->type;
     char list[240], quote[GI_QUOTE_SIZE];
-    if (name == NULL) {
+    if (name.data == NULL) {
         const char *implied = frame->element->type;
         if (implied != NULL) {
-            frame->type = gi_type_find(implied, kind);
+            frame->type = gi_type_find(gi_span(implied), kind);
             return;
         }
         if (frame->broken) return; /* by another attribute, which may have been meant for it */
@@ -297,8 +301,11 @@ static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attrib
             frame->element->name, list);
         return;
     }
-    const char *dot = strrchr(name, '.');
-    if (dot != NULL) name = dot + 1;
+    for (size_t i = name.size; i-- > 0;) {
+        if (name.data[i] != '.') continue;
+        name = (GiSpan){name.data + i + 1, name.size - i - 1};
+        break;
+    }
     frame->type = gi_type_find(name, kind);
     if (frame->type != NULL) {
         reader->evidence |= frame->type->evidence;
@@ -312,22 +319,22 @@ static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attrib
     int length;
     GiPlace place = gi_tree_attribute(reader, attributes->type_index, true, &length);
     const char *noun = strchr(gi_kind_text(kind), ' ') + 1;
-    gi_quote(quote, name, strlen(name));
+    gi_quote(quote, name.data, name.size);
     gi_type_list_text(kind, list, sizeof list);
     for (const GiType *type = gi_types; type->name != NULL; type++) {
-        if (strcmp(type->name, name) != 0) continue;
+        if (!gi_span_is(name, type->name)) continue;
         gi_report_add(&reader->report, place, length, "%s is %s type, but this is %s: %s", quote,
             gi_kind_text(type->kind), gi_kind_text(kind), list);
         return;
     }
-    GiSuggestion suggestion = gi_suggestion_begin(name, strlen(name));
+    GiSuggestion suggestion = gi_suggestion_begin(name.data, name.size);
     for (const GiType *type = gi_types; type->name != NULL; type++) {
         if (type->kind == kind) gi_suggestion_offer(&suggestion, type->name);
     }
     if (suggestion.best != NULL) {
         gi_report_add(&reader->report, place, length,
             "unknown %s type \"%s\": did you mean \"%s\"?", noun, quote, suggestion.best);
-        frame->type = gi_type_find(suggestion.best, kind);
+        frame->type = gi_type_find(gi_span(suggestion.best), kind);
         return;
     }
     gi_report_add(&reader->report, place, length, "unknown %s type \"%s\": there %s %s", noun,
@@ -335,11 +342,11 @@ static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attrib
 }
 
 /* Whether a surface that is still open has the name. */
-static bool stands_in(const GiReader *reader, const char *name) {
+static bool stands_in(const GiReader *reader, GiSpan name) {
     for (size_t i = 0; i + 1 < reader->frames.count; i++) {
         const GiFrame *frame = &reader->frames.data[i];
         if (frame->element != NULL && frame->element->kind == GI_KIND_SURFACE &&
-            strcmp(reader->tags.data + frame->name, name) == 0) {
+            gi_span_is(name, reader->tags.data + frame->name)) {
             return true;
         }
     }
@@ -370,14 +377,13 @@ static void read_ref(GiReader *reader, GiFrame *frame, const Attributes *attribu
     int length;
     GiPlace place = gi_tree_attribute(reader, attributes->ref_index, true, &length);
     char quote[GI_QUOTE_SIZE], near[GI_QUOTE_SIZE];
-    gi_quote(quote, attributes->ref, strlen(attributes->ref));
+    gi_quote(quote, attributes->ref.data, attributes->ref.size);
     if (named != NULL) {
         gi_report_add(&reader->report, place, length, "\"%s\" names %s, but %s needs %s", quote,
             gi_kind_text((GiKind)named->kind), frame->element->name, gi_kind_text(kind));
         return;
     }
-    if (kind == GI_KIND_SURFACE && attributes->ref[0] != '\0' &&
-        stands_in(reader, attributes->ref)) {
+    if (kind == GI_KIND_SURFACE && attributes->ref.size > 0 && stands_in(reader, attributes->ref)) {
         gi_report_add(&reader->report, place, length,
             "\"%s\" names the group that this stands in: a group cannot contain itself", quote);
         return;
@@ -396,31 +402,30 @@ static void read_ref(GiReader *reader, GiFrame *frame, const Attributes *attribu
 /* ---------------------------------------------------------------- events */
 
 /* Names defined in what is skipped for an error: their uses must not be errors too. */
-static void name_skipped(GiReader *reader, const XML_Char **attributes) {
-    for (; attributes[0] != NULL; attributes += 2) {
-        if (strcmp(attributes[0], "name") != 0 || strlen(attributes[1]) > GI_NAME_LIMIT) continue;
-        if (!gi_names_set(&reader->names, attributes[1], (GiNamed){.broken = true})) {
+static void name_skipped(GiReader *reader, const GiAttribute *list, int count) {
+    for (int i = 0; i < count; i++) {
+        if (!gi_span_is(list[i].name, "name") || list[i].value.size > GI_NAME_LIMIT) continue;
+        if (!gi_names_set(&reader->names, list[i].value, (GiNamed){.broken = true})) {
             gi_reader_out_of_memory(reader);
         }
     }
 }
 
-void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **list) {
-    GiReader *reader = user;
+void gi_tree_start(
+    GiReader *reader, GiSpan tag, const GiAttribute *list, int count, int64_t offset) {
     if (reader->stopped) return;
-    GiFrame *frame = push_frame(reader, tag);
+    GiFrame *frame = push_frame(reader, tag, offset);
     if (frame == NULL) return;
     GiFrame *parent = gi_reader_parent(reader);
     if (parent != NULL && parent->skip != GI_SKIP_NONE) {
         frame->skip = parent->skip;
-        if (frame->skip == GI_SKIP_UNKNOWN) name_skipped(reader, list);
+        if (frame->skip == GI_SKIP_UNKNOWN) name_skipped(reader, list, count);
         return;
     }
     const GiElement *element;
     if (parent == NULL) {
         gi_report_keep_root(&reader->report, frame->place);
-        bool root = strlen(tag) == 5 && gi_edit_distance(tag, 5, "scene", 5, 0) == 0;
-        element = root ? &gi_elements[0] : NULL;
+        element = is_scene(tag) ? &gi_elements[0] : NULL;
     } else {
         element = gi_element_guess(&reader->elements, tag, parent->contexts);
     }
@@ -434,7 +439,7 @@ void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **lis
         frame->broken = true;
         if (element == NULL) {
             frame->skip = GI_SKIP_UNKNOWN;
-            name_skipped(reader, list);
+            name_skipped(reader, list, count);
             return;
         }
     }
@@ -443,20 +448,20 @@ void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **lis
     if (element->kind == GI_KIND_CAMERA) reader->camera_seen = true;
     if (element->slot == GI_SLOT_IMAGE) reader->image_seen = true;
 
-    Attributes attributes = {.name = NULL};
-    if (list[0] != NULL && !read_attributes(reader, element, list, &attributes)) {
+    Attributes attributes = {.name = {NULL, 0}};
+    if (count > 0 && !read_attributes(reader, element, list, count, &attributes)) {
         frame->broken = true;
     }
-    if (attributes.name != NULL) {
-        if (!push_text(reader, attributes.name, strlen(attributes.name), &frame->name)) {
+    if (attributes.name.data != NULL) {
+        if (!push_text(reader, attributes.name, &frame->name)) {
             gi_reader_out_of_memory(reader);
             return;
         }
     }
-    if (attributes.dialect != NULL) {
+    if (attributes.dialect.data != NULL) {
         read_dialect(reader, attributes.dialect, attributes.dialect_index);
     }
-    if (attributes.ref != NULL) {
+    if (attributes.ref.data != NULL) {
         read_ref(reader, frame, &attributes);
         return;
     }
@@ -469,9 +474,7 @@ void XMLCALL gi_tree_start(void *user, const XML_Char *tag, const XML_Char **lis
     gi_object_begin(reader, frame);
 }
 
-void XMLCALL gi_tree_end(void *user, const XML_Char *tag) {
-    GiReader *reader = user;
-    (void)tag;
+void gi_tree_end(GiReader *reader, int64_t end) {
     if (reader->stopped) return;
     GiFrame *frame = gi_reader_top(reader), *parent = gi_reader_parent(reader);
     if (frame->skip == GI_SKIP_NONE) {
@@ -493,37 +496,37 @@ void XMLCALL gi_tree_end(void *user, const XML_Char *tag) {
     }
     if (reader->report.out_of_memory) gi_reader_out_of_memory(reader);
     pop_frame(reader);
-    if (parent == NULL) {
-        reader->scene_end =
-            XML_GetCurrentByteIndex(reader->parser) + XML_GetCurrentByteCount(reader->parser);
-    }
+    if (parent == NULL) reader->scene_end = end;
 }
 
 /* Text where only elements belong. */
-static void check_blank(GiReader *reader, GiFrame *frame, const char *text, size_t size) {
+static void check_blank(GiReader *reader, GiFrame *frame, GiSpan text, int64_t offset) {
     size_t i = 0;
-    while (i < size && is_blank((unsigned char)text[i])) i++;
-    if (i == size || frame->text_reported) return;
+    while (i < text.size && is_blank((unsigned char)text.data[i])) i++;
+    if (i == text.size || frame->text_reported) return;
     frame->text_reported = true;
     if (gi_report_is_full(&reader->report)) {
         reader->report.error_count++;
         return;
     }
     /* The word is not quoted: it may be cut here by the end of a chunk. */
-    GiPlace place = {.offset = XML_GetCurrentByteIndex(reader->parser) +
-                               gi_window_span(&reader->window, text, i)};
+    GiPlace place = {.offset = offset + gi_window_span(&reader->window, text.data, i)};
     gi_report_add(&reader->report, place, 1, "text does not belong here: %s holds elements only",
         frame->element->name);
 }
 
-void XMLCALL gi_tree_text(void *user, const XML_Char *text, int size) {
-    GiReader *reader = user;
+void gi_tree_text(GiReader *reader, GiSpan text, int64_t offset) {
     if (reader->stopped || reader->frames.count == 0) return;
     GiFrame *frame = gi_reader_top(reader);
     if (frame->skip != GI_SKIP_NONE) return;
     if (gi_kind_is_object(frame->element->kind)) {
-        check_blank(reader, frame, text, (size_t)size);
+        check_blank(reader, frame, text, offset);
     } else {
-        gi_value_append(reader, text, (size_t)size, XML_GetCurrentByteIndex(reader->parser));
+        gi_value_append(reader, text, offset);
     }
+}
+
+bool gi_tree_numbers(GiReader *reader, GiVec value, int count) {
+    const GiFrame *frame = gi_reader_top(reader);
+    return frame->skip != GI_SKIP_NONE || gi_value_take(reader, frame->element, value, count);
 }

@@ -92,7 +92,9 @@ static GiPlace place_of(const GiReader *reader, const GiFrame *frame, size_t ind
     return place;
 }
 
-void gi_value_append(GiReader *reader, const char *text, size_t size, int64_t offset) {
+void gi_value_append(GiReader *reader, GiSpan piece, int64_t offset) {
+    const char *text = piece.data;
+    size_t size = piece.size;
     if (reader->text_overflow) return;
     /* The common case: short text, kept as it is. Mostly the first piece is all there is; it is
      * read here, since reading the copy would have to wait for the copy. */
@@ -266,16 +268,13 @@ static bool read_string(GiReader *reader, const GiFrame *frame, GiVec *value) {
             "%s is empty: it is %s", frame->element->name, frame->element->help);
         return false;
     }
-    char text[GI_TEXT_LIMIT + 1];
-    size_t size = all.end - all.begin;
-    memcpy(text, reader->text + all.begin, size);
-    text[size] = '\0';
+    GiSpan text = {reader->text + all.begin, all.end - all.begin};
     uint32_t number;
     if (!gi_names_intern(&reader->strings, text, &number)) {
         gi_reader_out_of_memory(reader);
         return false;
     }
-    *value = gi_vec(number, gi_text_length(text, size), 0);
+    *value = gi_vec(number, gi_text_length(text.data, text.size), 0);
     return true;
 }
 
@@ -293,6 +292,16 @@ static bool passes(GiCheck check, GiVec value) {
     case GI_CHECK_DEPTH: return value.x >= 1 && value.x <= GI_PATH_LIMIT;
     case GI_CHECK_IMAGE_SIZE: return gi_scene_check_image_size(value.x, value.y) == NULL;
     }
+    return true;
+}
+
+bool gi_value_take(GiReader *reader, const GiElement *element, GiVec value, int count) {
+    bool real = element->kind == GI_KIND_REAL || gi_kind_count(element->kind) == 3;
+    if (!real || count != gi_kind_count(element->kind) || !passes(element->check, value)) {
+        return false;
+    }
+    reader->value = value;
+    reader->value_ready = true;
     return true;
 }
 

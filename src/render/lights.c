@@ -70,13 +70,15 @@ static void light_segment(const GiStage *stage, const GiLight *light, const GiSe
     }
 }
 
-/* Traces the shadow rays, in an order of the kernels' liking. */
-static void trace_lit(const GiStage *stage, GiVec light) {
+void gi_lights_trace(const GiStage *stage, GiVec light) {
     GiTileScratch *scratch = stage->scratch;
     GiBundle *bundle = &scratch->bundle;
     const GiPoints *points = &scratch->points;
     GiLit *lit = &scratch->lit;
-    stage->world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count);
+    /* Where shapes are a few pixels wide it takes less to test them against packets that are a
+     * little wide than to put rays in order. */
+    bool large = 4 * scratch->outlines < points->count && !scratch->shared;
+    stage->world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count, large);
     for (int begin = 0; begin < lit->count; begin += GI_BUNDLE_SIZE) {
         if (gi_stage_stopped(stage)) return;
         const uint16_t *order = scratch->regroup.order + begin;
@@ -122,7 +124,7 @@ static void add_point_light(const GiStage *stage, const GiLight *light) {
         }
     }
     if (scratch->lit.count == 0) return;
-    trace_lit(stage, light->position);
+    gi_lights_trace(stage, light->position);
     stage->counts->shadow_rays += (uint64_t)scratch->lit.count;
     if (!gi_stage_stopped(stage)) add_lit(stage);
 }

@@ -33,12 +33,19 @@ static void report(Render *render) {
     }
 }
 
+/* The same. */
+static void send(Render *render) {
+    GiPng *png = render->target->png;
+    if (png != NULL && !gi_png_send(png)) atomic_store(&render->stop, true);
+}
+
 /* No tile is left to begin, but the caller can still be asked. */
 static void wait_for_others(Render *render) {
     int count = render->columns * render->rows;
     if (render->monitor == NULL) return;
     while (atomic_load(&render->done) < count && !atomic_load(&render->stop)) {
         gi_machine_sleep(0.001);
+        send(render);
         report(render);
     }
 }
@@ -48,7 +55,7 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
     (void)end;
     Render *render = context;
     GiRenderCounts counts = {0};
-    GiTileControl control = {&render->stop, worker == 0 ? render->monitor : NULL};
+    GiTileControl control = {&render->stop, worker == 0 ? render->monitor : NULL, worker};
     for (;;) {
         int tile = atomic_fetch_add_explicit(&render->next, 1, memory_order_relaxed);
         if (tile >= render->columns * render->rows || atomic_load(&render->stop)) break;
@@ -58,7 +65,10 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
             break;
         }
         atomic_fetch_add_explicit(&render->done, 1, memory_order_relaxed);
-        if (worker == 0) report(render);
+        if (worker == 0) {
+            send(render);
+            report(render);
+        }
     }
     if (worker == 0) wait_for_others(render);
     /* A worker may be called more than once. */
@@ -67,12 +77,14 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
     render->counts[worker].other_rays += counts.other_rays;
 }
 
-/* Large tiles trace faster, many tiles share out better: the largest side that leaves every worker
- * sixteen of them. */
-static int tile_side(const GiRenderArea *area, size_t workers) {
+/* The side of tiles. In a large tree many rays share what they fetch of it; where the tree stays in
+ * a core's cache, it is better that a tile's own numbers stay there too. And many tiles share out
+ * better: at least sixteen for every worker. */
+static int tile_side(const GiWorld *world, const GiRenderArea *area, size_t workers) {
+    const size_t large_tree = 2 << 20;
     double pixels = (double)area->crop_width * area->crop_height;
-    int side = GI_TILE_SIDE_LIMIT;
-    while (side > 32 && pixels < 16.0 * (double)workers * side * side) side /= 2;
+    int side = world->tree_bytes > large_tree ? GI_TILE_SIDE_LIMIT : GI_TILE_SIDE_LIMIT / 2;
+    while (side > GI_RENDER_TILE_LEAST && pixels < 16.0 * (double)workers * side * side) side /= 2;
     return side;
 }
 
@@ -81,7 +93,7 @@ GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *ar
     GiMemory *memory = world->scene->memory;
     size_t workers = (size_t)gi_pool_worker_count(pool);
     Render render = {.world = world, .area = area, .monitor = monitor, .target = target};
-    render.side = tile_side(area, workers);
+    render.side = tile_side(world, area, workers);
     render.columns = (area->crop_width + render.side - 1) / render.side;
     render.rows = (area->crop_height + render.side - 1) / render.side;
     size_t scratch_size = workers * sizeof *render.scratch;

@@ -2,6 +2,7 @@
  * Drawing a world into memory. */
 #pragma once
 
+#include "image/png.h"
 #include "render/world.h"
 
 typedef struct GiRenderCounts {
@@ -21,17 +22,22 @@ typedef enum GiTechnique {
     GI_TECHNIQUE_BSDF
 } GiTechnique;
 
-/* What to draw, and where to: crop_width * crop_height values or triples, top row first. All but
- * color may be null. */
+/* What to draw, and where to: crop_width * crop_height values or triples, top row first; any may be
+ * null. */
 typedef struct GiRenderTarget {
     int samples; /* per pixel, at least 1 */
     float *color, *depth, *normal, *albedo;
     uint32_t *surface;
-    int light; /* as in GlintRenderDesc */
+    GiPng *png; /* of crop_width * crop_height pixels; what is ready is sent while others draw */
+    int light;  /* as in GlintRenderDesc */
     GlintSampling sampling;
     GiTechnique technique;
 } GiRenderTarget;
 
-/* Errors: MEMORY, CANCELLED. */
+/* No tile is smaller, but at the border: a picture has no use for more workers than it has squares
+ * of this side. */
+enum { GI_RENDER_TILE_LEAST = 32 };
+
+/* Errors: MEMORY, CANCELLED (also when the receiver of the PNG has stopped). */
 GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *area,
     const GlintMonitor *monitor, const GiRenderTarget *target, GiRenderCounts *counts);

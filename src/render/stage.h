@@ -77,6 +77,7 @@ struct GiTileScratch {
     uint32_t *head; /* for each shader, while points are sorted: the first of its rays */
     size_t shader_count;
     int segment_count;
+    int outlines;  /* how often a camera ray met another shape than the one before it */
     bool weighted; /* factors are in use */
     bool shared;   /* points may have a pixel in common, so light goes to the pixels at once */
     bool out_of_memory;
@@ -140,6 +141,23 @@ static inline double gi_stage_radiance(const GiShading *at) {
     return path || at->rules->radiance_over_pi ? gi_bsdf_radiometric(at) : 1;
 }
 
+/* ---- tile.c */
+
+/* The tile's pixels that lie in the picture, or in the part of it that is drawn. */
+typedef struct GiTileExtent {
+    int x, y, width, height;
+} GiTileExtent;
+
+enum { GI_BLOCK_SIDE = 32 }; /* a bundle of camera rays: 32 x 32 pixels */
+
+/* Readies the camera rays of one sample of every pixel; offsets from 0 to 1. */
+void gi_tile_aim(const GiStage *stage, const GiRenderArea *area, const GiTileExtent *extent,
+    double offset_x, double offset_y);
+
+/* Traces the block with the corner (x, y) in the tile. The bundle then has what its rays met.
+ * Returns how many there are; 0 also when it is to stop. */
+int gi_tile_trace_block(const GiStage *stage, const GiTileExtent *extent, int x, int y);
+
 /* ---- surface.c */
 
 /* The rays of the bundle. */
@@ -154,8 +172,14 @@ GiShading gi_surface_shading(const GiStage *stage, int i);
 /* Whether light from large sources is also looked for along directions that the bsdf draws. */
 bool gi_surface_probes(const GiWorld *world, const GiShader *shader);
 
-/* ---- lights.c: adds the light of all lights to all points, and forgets the points. */
+/* ---- lights.c */
+
+/* Adds the light of all lights to all points, and forgets the points. */
 void gi_lights_add(const GiStage *stage);
+
+/* Traces the shadow rays of the lit to a point light, in an order of the kernels' liking, and fills
+ * in which of them arrive. Less is done when it is to stop. */
+void gi_lights_trace(const GiStage *stage, GiVec light);
 
 /* Whether the kernels know the shader's formula; *gloss is then made ready for them. */
 bool gi_lights_gloss(const GiRules *rules, const GiShader *shader, GiGloss *gloss);

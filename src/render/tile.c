@@ -4,9 +4,8 @@
 #include <string.h>
 
 enum {
-    BLOCK_SIDE = 32, /* a bundle of camera rays: 32 x 32 pixels */
     PACKET_SIDE = 4, /* a packet: 4 x 4 */
-    PACKETS_ACROSS = BLOCK_SIDE / PACKET_SIDE,
+    PACKETS_ACROSS = GI_BLOCK_SIDE / PACKET_SIDE,
     STRIDE = GI_TILE_STRIDE
 };
 
@@ -31,7 +30,7 @@ GiTileScratch *gi_tile_scratch_create(const GiWorld *world, const GiRenderTarget
         return NULL;
     }
     for (size_t i = 0; i < shader_count; i++) scratch->head[i] = GI_NONE;
-    world->kernel->regroup_init(&scratch->regroup);
+    scratch->regroup.drawn = false;
     return scratch;
 }
 
@@ -45,11 +44,6 @@ void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch) {
 }
 
 bool gi_tile_out_of_memory(const GiTileScratch *scratch) { return scratch->out_of_memory; }
-
-/* The tile's pixels that lie in the area. */
-typedef struct Extent {
-    int x, y, width, height;
-} Extent;
 
 static bool stopped(const GiTileControl *control) {
     const GlintMonitor *monitor = control->monitor;
@@ -92,10 +86,22 @@ static void trace_apart(const GiStage *stage) {
     }
 }
 
+void gi_tile_aim(const GiStage *stage, const GiRenderArea *area, const GiTileExtent *extent,
+    double offset_x, double offset_y) {
+    GiTileScratch *scratch = stage->scratch;
+    for (int x = 0; x < extent->width; x++) {
+        scratch->across[x] = (extent->x + x + offset_x) / area->width;
+    }
+    for (int y = 0; y < extent->height; y++) {
+        /* Rows of the picture run down, the window's coordinate runs up. */
+        scratch->up[y] = (area->height - 1 - (extent->y + y) + offset_y) / area->height;
+    }
+}
+
 static inline int minimum(int a, int b) { return a < b ? a : b; }
 
 /* Fills the bundle with the rays of a block's pixels, packet by packet. */
-static void set_rays(const GiStage *stage, const Extent *extent, int block_x, int block_y) {
+static void set_rays(const GiStage *stage, const GiTileExtent *extent, int block_x, int block_y) {
     const GiWorld *world = stage->world;
     GiTileScratch *scratch = stage->scratch;
     GiBundle *bundle = &scratch->bundle;
@@ -124,37 +130,35 @@ static void set_rays(const GiStage *stage, const Extent *extent, int block_x, in
     }
 }
 
-static void trace_block(const GiStage *stage, const Extent *extent, int block_x, int block_y) {
+int gi_tile_trace_block(
+    const GiStage *stage, const GiTileExtent *extent, int block_x, int block_y) {
     const GiWorld *world = stage->world;
+    GiBundle *bundle = &stage->scratch->bundle;
+    if (gi_stage_stopped(stage)) return 0;
     set_rays(stage, extent, block_x, block_y);
     if (world->view.parallel) {
         trace_apart(stage);
     } else {
-        world->kernel->bundle_closest(&world->trace, &stage->scratch->bundle);
+        world->kernel->bundle_closest(&world->trace, bundle);
     }
-    gi_surface_bundle(stage);
+    return bundle->count;
 }
 
 /* ---------------------------------------------------------------- the tile */
 
 /* One of the n x n samples of every pixel. */
-static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Extent *extent,
+static void draw_sample(const GiStage *stage, const GiRenderArea *area, const GiTileExtent *extent,
     double offset_x, double offset_y) {
     GiTileScratch *scratch = stage->scratch;
     scratch->points.count = scratch->segment_count = 0;
     scratch->weighted = scratch->shared = false;
+    scratch->outlines = 0;
     memset(scratch->color, 0, (size_t)(extent->height * STRIDE) * sizeof *scratch->color);
-    for (int x = 0; x < extent->width; x++) {
-        scratch->across[x] = (extent->x + x + offset_x) / area->width;
-    }
-    for (int y = 0; y < extent->height; y++) {
-        /* Rows of the picture run down, the window's coordinate runs up. */
-        scratch->up[y] = (area->height - 1 - (extent->y + y) + offset_y) / area->height;
-    }
-    for (int y = 0; y < extent->height; y += BLOCK_SIDE) {
-        for (int x = 0; x < extent->width; x += BLOCK_SIDE) {
-            if (gi_stage_stopped(stage)) return;
-            trace_block(stage, extent, x, y);
+    gi_tile_aim(stage, area, extent, offset_x, offset_y);
+    for (int y = 0; y < extent->height; y += GI_BLOCK_SIDE) {
+        for (int x = 0; x < extent->width; x += GI_BLOCK_SIDE) {
+            if (gi_tile_trace_block(stage, extent, x, y) == 0) return;
+            gi_surface_bundle(stage);
         }
     }
     stage->counts->camera_rays += (uint64_t)extent->width * (uint64_t)extent->height;
@@ -162,12 +166,16 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Ex
     gi_flight_follow(stage);
 }
 
+/* A quotient to the last bit: a power of two is divided by with a product, which takes a quarter of
+ * the time. The sum with zero makes one zero of two. */
 static void store_color(
-    const GiVec *sum, int row, int width, int samples, double exposure, float *to) {
-    for (int i = row * STRIDE; i < row * STRIDE + width; i++) {
-        *to++ = (float)(sum[i].x / samples * exposure);
-        *to++ = (float)(sum[i].y / samples * exposure);
-        *to++ = (float)(sum[i].z / samples * exposure);
+    const GiVec *sum, int width, int samples, double exposure, float *restrict to) {
+    const double *from = &sum->x;
+    double part = 1.0 / samples;
+    if ((samples & (samples - 1)) == 0) {
+        for (int i = 0; i < 3 * width; i++) to[i] = (float)(from[i] * part * exposure + 0.0);
+    } else {
+        for (int i = 0; i < 3 * width; i++) to[i] = (float)(from[i] / samples * exposure + 0.0);
     }
 }
 
@@ -197,24 +205,42 @@ static int grid_of(int samples) {
     return n > 1 ? n : 1;
 }
 
-static void clear(const Extent *extent, GiTileScratch *scratch) {
-    size_t count = (size_t)(extent->height * STRIDE);
-    memset(scratch->sum, 0, count * sizeof *scratch->sum);
-    if (scratch->seen != NULL) memset(scratch->seen, 0, count * sizeof *scratch->seen);
-}
-
-static void add_sample(const Extent *extent, GiTileScratch *scratch) {
+static void add_sample(const GiTileExtent *extent, GiTileScratch *scratch, bool first) {
     for (int row = 0; row < extent->height; row++) {
         for (int i = row * STRIDE; i < row * STRIDE + extent->width; i++) {
-            scratch->sum[i] = gi_add(scratch->sum[i], scratch->color[i]);
+            scratch->sum[i] =
+                first ? scratch->color[i] : gi_add(scratch->sum[i], scratch->color[i]);
         }
     }
+}
+
+/* The tile's pixels to where they are wanted; x and y as for gi_tile_draw. False: no memory. */
+static bool store(const GiStage *stage, const GiRenderArea *area, const GiTileExtent *extent, int x,
+    int y, int count) {
+    const GiTileScratch *scratch = stage->scratch;
+    const GiRenderTarget *target = stage->target;
+    const GiScene *scene = stage->world->scene;
+    double exposure = scene->exposure > 0 ? scene->exposure : 1;
+    /* One sample is its own sum. */
+    const GiVec *sum = count > 1 ? scratch->sum : scratch->color;
+    for (int row = 0; row < extent->height; row++) {
+        size_t at = (size_t)(y + row) * (size_t)area->crop_width + (size_t)x;
+        float own[3 * STRIDE], *color = target->color != NULL ? target->color + 3 * at : own;
+        store_color(sum + row * STRIDE, extent->width, count, exposure, color);
+        if (target->png != NULL &&
+            !gi_png_put(target->png, x, y + row, extent->width, color, stage->control->worker)) {
+            return false;
+        }
+        if (scratch->seen == NULL) continue;
+        store_seen(scratch->seen + row * STRIDE, extent->width, count, at, target);
+    }
+    return true;
 }
 
 bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
     const GiRenderTarget *target, GiTileScratch *scratch, GiRenderCounts *counts,
     const GiTileControl *control) {
-    Extent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
+    GiTileExtent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
     if (extent.width > side) extent.width = side;
     if (extent.height > side) extent.height = side;
     GiStage stage = {
@@ -222,20 +248,17 @@ bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
     scratch->bundle.stop = ask;
     scratch->bundle.stop_context = control;
     int n = grid_of(target->samples);
-    if (n > 1 || scratch->seen != NULL) clear(&extent, scratch);
+    if (scratch->seen != NULL) {
+        memset(scratch->seen, 0, (size_t)(extent.height * STRIDE) * sizeof *scratch->seen);
+    }
     for (int sample = 0; sample < n * n; sample++) {
         stage.sample = (uint32_t)sample;
         draw_sample(&stage, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n);
         if (stopped(control)) return false;
-        if (n > 1) add_sample(&extent, scratch);
+        if (n > 1) add_sample(&extent, scratch, sample == 0);
     }
-    const GiVec *sum = n > 1 ? scratch->sum : scratch->color;
-    double exposure = world->scene->exposure > 0 ? world->scene->exposure : 1;
-    for (int row = 0; row < extent.height; row++) {
-        size_t at = (size_t)(y + row) * (size_t)area->crop_width + (size_t)x;
-        store_color(sum, row, extent.width, n * n, exposure, target->color + 3 * at);
-        if (scratch->seen == NULL) continue;
-        store_seen(scratch->seen + row * STRIDE, extent.width, n * n, at, target);
-    }
-    return true;
+    if (store(&stage, area, &extent, x, y, n * n)) return true;
+    scratch->out_of_memory = true;
+    atomic_store(control->stop, true);
+    return false;
 }

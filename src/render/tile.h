@@ -21,10 +21,12 @@ bool gi_tile_out_of_memory(const GiTileScratch *scratch);
 typedef struct GiTileControl {
     _Atomic bool *stop;
     const GlintMonitor *monitor; /* null on the other workers */
+    int worker;
 } GiTileControl;
 
 /* Draws the part of the tile with corner (x, y) and the given side that lies in the area. control
- * is asked every few hundred rays; when it says stop the tile stays unfinished: false. */
+ * is asked every few hundred rays; when it says stop, or there is no memory for what was drawn, the
+ * tile stays unfinished: false. */
 bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
     const GiRenderTarget *target, GiTileScratch *scratch, GiRenderCounts *counts,
     const GiTileControl *control);

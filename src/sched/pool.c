@@ -75,9 +75,13 @@ static GlintStatus start(GiPool *pool, int count, const pthread_attr_t *attribut
     return GLINT_OK;
 }
 
-GlintStatus gi_pool_create(GiMemory *memory, int thread_count, GiPool **result) {
+int gi_pool_size(int thread_count) {
     if (thread_count <= 0) thread_count = gi_machine_core_count();
-    if (thread_count > WORKER_LIMIT) thread_count = WORKER_LIMIT;
+    return thread_count < WORKER_LIMIT ? thread_count : WORKER_LIMIT;
+}
+
+GlintStatus gi_pool_create(GiMemory *memory, int thread_count, GiPool **result) {
+    thread_count = gi_pool_size(thread_count);
     GiPool *pool = gi_memory_allocate(memory, sizeof *pool);
     if (pool == NULL) return GLINT_ERROR_MEMORY;
     memset(pool, 0, sizeof *pool);

@@ -7,7 +7,10 @@
 
 typedef struct GiPool GiPool;
 
-/* thread_count 0: one per core. Errors: MEMORY, THREAD. */
+/* The workers of a pool for so many threads; 0: one per core. */
+int gi_pool_size(int thread_count);
+
+/* thread_count as above. Errors: MEMORY, THREAD. */
 GlintStatus gi_pool_create(GiMemory *memory, int thread_count, GiPool **pool);
 
 /* Waits for the workers to end. Null is allowed. */

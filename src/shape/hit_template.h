@@ -57,18 +57,23 @@ static inline M GI_HIT(pick)(R enter, R leave, M exits, R t_min, R t_max, R *t) 
            R_LESS(*t, t_max);
 }
 
-/* By the point of closest approach: b^2 - 4ac would lose a small sphere far away to rounding. */
-static inline M GI_HIT(sphere)(const GiSphere *s, const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
+/* By the point of closest approach, at t = nearest: b^2 - 4ac would lose a small sphere far away to
+ * rounding. What is left of the square of the radius there; negative: the line passes by. */
+static inline R GI_HIT(sphere_rest)(const GiSphere *s, const GI_HIT(Ray) * ray, R *nearest) {
     R x = R_OF(s->center.x) - ray->ox, y = R_OF(s->center.y) - ray->oy,
       z = R_OF(s->center.z) - ray->oz;
-    R nearest = (x * ray->dx + y * ray->dy + z * ray->dz) * ray->inverse_square;
-    x = x - nearest * ray->dx;
-    y = y - nearest * ray->dy;
-    z = z - nearest * ray->dz;
+    *nearest = (x * ray->dx + y * ray->dy + z * ray->dz) * ray->inverse_square;
+    x = x - *nearest * ray->dx;
+    y = y - *nearest * ray->dy;
+    z = z - *nearest * ray->dz;
     R radius = R_OF(s->radius);
-    R inside = radius * radius - (x * x + y * y + z * z);
-    R half = R_SQRT(R_MAX(inside, R_OF(0)) * ray->inverse_square);
-    M any = R_LESS_EQUAL(R_OF(0), inside);
+    return radius * radius - (x * x + y * y + z * z);
+}
+
+static inline M GI_HIT(sphere)(const GiSphere *s, const GI_HIT(Ray) * ray, R t_min, R t_max, R *t) {
+    R nearest, rest = GI_HIT(sphere_rest)(s, ray, &nearest);
+    R half = R_SQRT(R_MAX(rest, R_OF(0)) * ray->inverse_square);
+    M any = R_LESS_EQUAL(R_OF(0), rest);
     return any & GI_HIT(pick)(nearest - half, nearest + half, any, t_min, t_max, t);
 }
 

@@ -9,16 +9,15 @@
  *
  * and (entry + low bits) >> 16 is the byte: the addition carries when the value is at the step or
  * beyond. No branch and one look-up in 10 KB. */
-#include "image/gamma.h"
+#include "math/gamma.h"
 
 #include "math/elementary.h"
 
 #include <pthread.h>
 #include <string.h>
 
-/* All values below 2^-20 give 0, since T_1 is 2^-19.8; all from 1 on give 255. */
-#define LOWEST 0x1p-20f
-enum { LOW_BITS = 16, LOWEST_BITS = 107 << 23, ONE_BITS = 127 << 23 };
+#define LOWEST GI_GAMMA_LOWEST
+enum { LOW_BITS = GI_GAMMA_LOW_BITS, LOWEST_BITS = GI_GAMMA_LOWEST_BITS, ONE_BITS = 127 << 23 };
 enum { BUCKET_COUNT = ((ONE_BITS - LOWEST_BITS) >> LOW_BITS) + 1, BLOCK = 64 };
 
 static uint32_t table[BUCKET_COUNT];
@@ -52,7 +51,13 @@ static void fill_table(void) {
     }
 }
 
-static inline void encode_block(const float *linear, size_t count, uint8_t *bytes) {
+const uint32_t *gi_gamma_table(void) {
+    pthread_once(&table_once, fill_table);
+    return table;
+}
+
+static inline void encode_block(
+    const uint32_t *steps, const float *linear, size_t count, uint8_t *bytes) {
     /* The clamp goes first, as a loop of its own that compilers turn into max and min. Both
      * comparisons are false for NaN, which thereby becomes LOWEST. */
     float clamped[BLOCK];
@@ -60,18 +65,14 @@ static inline void encode_block(const float *linear, size_t count, uint8_t *byte
         float value = linear[i] > LOWEST ? linear[i] : LOWEST;
         clamped[i] = value < 1.0f ? value : 1.0f;
     }
-    for (size_t i = 0; i < count; i++) {
-        uint32_t bits = bits_of(clamped[i]);
-        uint32_t entry = table[(bits - LOWEST_BITS) >> LOW_BITS];
-        bytes[i] = (uint8_t)((entry + (bits & ((1u << LOW_BITS) - 1))) >> LOW_BITS);
-    }
+    for (size_t i = 0; i < count; i++) bytes[i] = gi_gamma_byte(steps, clamped[i]);
 }
 
 void gi_gamma_encode(const float *linear, size_t count, uint8_t *bytes) {
-    pthread_once(&table_once, fill_table);
+    const uint32_t *steps = gi_gamma_table();
     /* 1.2 values a nanosecond with GCC, 1.9 with Clang. Told the length, GCC vectorises at -O2. */
     for (; count >= BLOCK; count -= BLOCK, linear += BLOCK, bytes += BLOCK) {
-        encode_block(linear, BLOCK, bytes);
+        encode_block(steps, linear, BLOCK, bytes);
     }
-    encode_block(linear, count, bytes);
+    encode_block(steps, linear, count, bytes);
 }

@@ -1,0 +1,308 @@
+/* SPDX-License-Identifier: MIT
+ * Each scan_ function begins at a token and returns its end, or null and leaves `fault` at the byte
+ * that it could not take. When that is the zero behind the last byte, the token is not whole. What
+ * is taken is a subset of XML 1.0 that needs no table of its characters: names are of ASCII,
+ * everything else also of the UTF-8 that needs no second look; no references, no CDATA, no
+ * instructions, no document type. */
+#include "reader/scan.h"
+
+#include "reader/number.h"
+
+#include <string.h>
+
+enum { TOKEN_LIMIT = UINT16_MAX, NAME_LIMIT = 80, DECLARATION_LIMIT = 40 };
+
+/* The most entries of one step of the scanner: a tag, its attributes and its numbers. */
+enum { STEP_LIMIT = 2 + 2 * GI_TAPE_ATTRIBUTE_LIMIT + 1 + GI_TAPE_NUMBER_LIMIT };
+
+enum {
+    NAME_FIRST = 1,
+    NAME = 2,
+    BLANK = 4,
+    TEXT = 8,   /* and in a comment, when it is no hyphen */
+    VALUE = 16, /* of an attribute */
+    NUMBER = 32 /* may be the first of one */
+};
+
+typedef struct Scan {
+    GiScanner *scanner;
+    const uint8_t *classes;
+    const char *bytes, *end, *fault;
+    GiTape *tape;
+    bool out_of_memory;
+} Scan;
+
+void gi_scanner_init(GiScanner *scanner, GiMemory *memory) {
+    memset(scanner, 0, sizeof *scanner);
+    scanner->memory = memory;
+    for (int c = 0; c < 128; c++) {
+        bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':';
+        bool digit = c >= '0' && c <= '9', blank = c == ' ' || c == '\t' || c == '\n' || c == '\r';
+        bool inner = letter || digit || c == '-' || c == '.';
+        bool text = (c >= ' ' || blank) && c != '<' && c != '&' && c != ']';
+        bool value = c >= ' ' && c != '<' && c != '&' && c != '"' && c != '\'';
+        bool number = digit || c == '-' || c == '+' || c == '.';
+        scanner->classes[c] = (uint8_t)(NAME_FIRST * letter | NAME * inner | BLANK * blank |
+                                        TEXT * text | VALUE * value | NUMBER * number);
+    }
+}
+
+void gi_scanner_reset(GiScanner *scanner) {
+    gi_array_free(scanner->memory, &scanner->open);
+    gi_array_free(scanner->memory, &scanner->starts);
+}
+
+/* ---------------------------------------------------------------- characters */
+
+static bool is(const Scan *scan, char c, int classes) {
+    return (scan->classes[(unsigned char)c] & classes) != 0;
+}
+
+static const char *fail(Scan *scan, const char *at) {
+    scan->fault = at;
+    return NULL;
+}
+
+/* A character of two or three bytes; of those with three, none that could be a half of a pair or no
+ * character at all. */
+static const char *skip_wide(Scan *scan, const char *p) {
+    unsigned char c = (unsigned char)*p;
+    int more = c >= 0xc2 && c <= 0xdf ? 1 : c >= 0xe1 && c <= 0xec ? 2 : 0;
+    if (more == 0) return fail(scan, p);
+    for (int i = 1; i <= more; i++) {
+        if (((unsigned char)p[i] & 0xc0) != 0x80) return fail(scan, p + i);
+    }
+    return p + more + 1;
+}
+
+/* The end of a run of characters of a class. */
+static const char *skip(Scan *scan, const char *p, int classes) {
+    for (;;) {
+        while (is(scan, *p, classes)) p++;
+        if ((unsigned char)*p < 0x80) return p;
+        p = skip_wide(scan, p);
+        if (p == NULL) return NULL;
+    }
+}
+
+static const char *skip_blank(const Scan *scan, const char *p) {
+    while (is(scan, *p, BLANK)) p++;
+    return p;
+}
+
+/* ---------------------------------------------------------------- tape */
+
+static GiToken *put(Scan *scan, GiTokenKind kind, const char *begin, const char *end) {
+    GiToken *token = &scan->tape->entries.data[scan->tape->entries.count++].token;
+    token->at = (uint32_t)(begin - scan->bytes);
+    token->size = (uint16_t)(end - begin);
+    token->kind = (uint8_t)kind;
+    token->count = 0;
+    return token;
+}
+
+/* ---------------------------------------------------------------- tags */
+
+/* The value of an element, from behind its start tag; null when it is something else. */
+static const char *scan_numbers(Scan *scan, const char *p) {
+    const char *q = skip_blank(scan, p);
+    if (!is(scan, *q, NUMBER)) return NULL;
+    size_t first = scan->tape->entries.count;
+    GiToken *token = put(scan, GI_TOKEN_NUMBERS, p, p);
+    while (*q != '<') {
+        size_t used;
+        GiTapeEntry *entry = &scan->tape->entries.data[scan->tape->entries.count];
+        if (token->count == GI_TAPE_NUMBER_LIMIT || !is(scan, *q, NUMBER) ||
+            gi_number_read(q, (size_t)(scan->end - q), &entry->number, &used) != GI_NUMBER_OK ||
+            (q[used] != '<' && !is(scan, q[used], BLANK))) {
+            scan->tape->entries.count = first;
+            return NULL;
+        }
+        scan->tape->entries.count++;
+        token->count++;
+        q = skip_blank(scan, q + used);
+    }
+    if (q[1] != '/' || q - p > TOKEN_LIMIT) {
+        scan->tape->entries.count = first;
+        return NULL;
+    }
+    token->size = (uint16_t)(q - p);
+    return q;
+}
+
+/* ` name="value"` */
+static const char *scan_attribute(Scan *scan, const char *p) {
+    const char *name = p;
+    if (!is(scan, *p, NAME_FIRST)) return fail(scan, p);
+    while (is(scan, *p, NAME)) p++;
+    if (*p != '=') return fail(scan, p);
+    const char *name_end = p++, quote = *p;
+    if (quote != '"' && quote != '\'') return fail(scan, p);
+    const char *value = p + 1;
+    p = skip(scan, value, VALUE);
+    if (p == NULL) return NULL;
+    if (*p != quote) return fail(scan, p);
+    put(scan, GI_TOKEN_SPAN, name, name_end);
+    put(scan, GI_TOKEN_SPAN, value, p);
+    return p + 1;
+}
+
+/* Whether the last of the attributes behind a token has a name that another has. */
+static bool repeats_name(const Scan *scan, const GiTapeEntry *attributes, int count) {
+    GiToken last = attributes[2 * count - 2].token;
+    for (int i = 0; i + 1 < count; i++) {
+        GiToken token = attributes[2 * i].token;
+        if (token.size == last.size &&
+            memcmp(scan->bytes + token.at, scan->bytes + last.at, last.size) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool push_open(Scan *scan, const char *tag, size_t size) {
+    GiScanner *scanner = scan->scanner;
+    if (scanner->open.count > UINT32_MAX / 2 ||
+        !gi_array_reserve(scanner->memory, &scanner->open, size + 1) ||
+        !gi_array_push(scanner->memory, &scanner->starts, (uint32_t)scanner->open.count)) {
+        scan->out_of_memory = true;
+        return false;
+    }
+    memcpy(scanner->open.data + scanner->open.count, tag, size);
+    scanner->open.data[scanner->open.count + size] = '>';
+    scanner->open.count += size + 1;
+    return true;
+}
+
+static const char *scan_start(Scan *scan, const char *tag) {
+    const char *p = tag + 1;
+    while (is(scan, *p, NAME)) p++;
+    const char *name_end = p;
+    if (p - tag > NAME_LIMIT) return fail(scan, p);
+    size_t first = scan->tape->entries.count;
+    GiToken *token = put(scan, GI_TOKEN_START, tag, name_end);
+    while (*p != '>' && *p != '/') {
+        const char *q = skip_blank(scan, p);
+        if (q == p) return fail(scan, p);
+        p = q;
+        if (*p == '>' || *p == '/') break;
+        if (token->count == GI_TAPE_ATTRIBUTE_LIMIT) return fail(scan, p);
+        p = scan_attribute(scan, p);
+        if (p == NULL) return NULL;
+        if (repeats_name(scan, scan->tape->entries.data + first + 1, ++token->count)) {
+            return fail(scan, tag);
+        }
+    }
+    if (*p == '/') {
+        if (*++p != '>') return fail(scan, p);
+        if (++p - tag > TOKEN_LIMIT) return fail(scan, tag);
+        put(scan, GI_TOKEN_END, tag, p);
+        return p;
+    }
+    if (++p - tag > TOKEN_LIMIT) return fail(scan, tag);
+    if (!push_open(scan, tag, (size_t)(name_end - tag))) return NULL;
+    const char *value_end = scan_numbers(scan, p);
+    return value_end != NULL ? value_end : p;
+}
+
+static const char *scan_end(Scan *scan, const char *tag) {
+    GiScanner *scanner = scan->scanner;
+    size_t start = scanner->starts.data[scanner->starts.count - 1];
+    size_t size = scanner->open.count - start - 1; /* of the name and > */
+    if ((size_t)(scan->end - tag) < size + 2) return fail(scan, scan->end);
+    if (memcmp(scanner->open.data + start + 1, tag + 2, size) != 0) return fail(scan, tag);
+    scanner->open.count = start;
+    scanner->starts.count--;
+    put(scan, GI_TOKEN_END, tag, tag + 2 + size);
+    return tag + 2 + size;
+}
+
+static const char *scan_comment(Scan *scan, const char *p) {
+    for (int i = 2; i < 4; i++) {
+        if (p[i] != '-') return fail(scan, p + i);
+    }
+    for (p += 4;; p++) {
+        while (*p != '-' && is(scan, *p, TEXT)) p++;
+        if (*p == '-') {
+            if (p[1] != '-') continue;
+            return p[2] == '>' ? p + 3 : fail(scan, p + 2);
+        }
+        if (*p == '<' || *p == '&' || *p == ']') continue;
+        p = (unsigned char)*p < 0x80 ? fail(scan, p) : skip_wide(scan, p);
+        if (p == NULL) return NULL;
+        p--;
+    }
+}
+
+/* ---------------------------------------------------------------- the whole */
+
+/* From the beginning of the file to its root element: an XML declaration in one of its usual forms,
+ * comments and white space. */
+static const char *scan_prologue(Scan *scan, const char *p) {
+    static const char *const declarations[] = {"<?xml version=\"1.0\"?>",
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>", "<?xml version=\"1.0\" encoding=\"utf-8\"?>"};
+    if (strncmp(p, "\xef\xbb\xbf", 3) == 0) p += 3; /* a byte order mark */
+    for (int i = 0; i < 3; i++) {
+        size_t size = strlen(declarations[i]);
+        if (strncmp(p, declarations[i], size) != 0) continue;
+        p += size;
+        break;
+    }
+    for (;;) {
+        p = skip_blank(scan, p);
+        if (*p != '<') return fail(scan, p);
+        if (is(scan, p[1], NAME_FIRST)) return scan_start(scan, p);
+        if (p[1] != '!') {
+            bool cut = p[1] == '?' && scan->end - p < DECLARATION_LIMIT;
+            return fail(scan, cut ? scan->end : p + 1);
+        }
+        p = scan_comment(scan, p);
+        if (p == NULL) return NULL;
+    }
+}
+
+static const char *scan_text(Scan *scan, const char *text) {
+    const char *p = skip(scan, text, TEXT);
+    if (p == NULL) return NULL;
+    if (*p != '<' || p - text > TOKEN_LIMIT) return fail(scan, p);
+    put(scan, GI_TOKEN_TEXT, text, p);
+    return p;
+}
+
+static const char *scan_one(Scan *scan, const char *p) {
+    if (*p == '<' && p[1] == '!') return scan_comment(scan, p);
+    if (scan->scanner->starts.count == 0) { /* behind the root element */
+        const char *q = skip_blank(scan, p);
+        return q > p ? q : fail(scan, q);
+    }
+    if (*p != '<') return scan_text(scan, p);
+    if (is(scan, p[1], NAME_FIRST)) return scan_start(scan, p);
+    return p[1] == '/' ? scan_end(scan, p) : fail(scan, p + 1);
+}
+
+GiScanStatus gi_scan(GiScanner *scanner, const char *bytes, size_t size, GiTape *tape) {
+    Scan scan = {.scanner = scanner,
+        .classes = scanner->classes,
+        .bytes = bytes,
+        .end = bytes + size,
+        .tape = tape};
+    const char *p = bytes;
+    tape->begin = scanner->next;
+    tape->entries.count = 0;
+    scan.fault = scan.end;
+    while (p < scan.end) {
+        size_t count = tape->entries.count;
+        if (!gi_array_reserve(scanner->memory, &tape->entries, STEP_LIMIT)) return GI_SCAN_MEMORY;
+        const char *next = scanner->begun ? scan_one(&scan, p) : scan_prologue(&scan, p);
+        if (next == NULL) {
+            tape->entries.count = count;
+            break;
+        }
+        scanner->begun = true;
+        p = next;
+    }
+    scanner->next += p - bytes;
+    if (scan.out_of_memory) return GI_SCAN_MEMORY;
+    bool whole = scan.fault < scan.end || scan.end - p > TOKEN_LIMIT;
+    return p < scan.end && whole ? GI_SCAN_STRANGE : GI_SCAN_MORE;
+}

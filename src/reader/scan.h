@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT
+ * A scanner for the plain part of XML that large scenes are made of: elements, attributes, text and
+ * comments. It takes a quarter of expat's time and knows nothing of errors: what it does not take
+ * for certainly well-formed, it leaves, and expat goes on from there. */
+#pragma once
+
+#include "base/array.h"
+#include "reader/span.h"
+
+typedef enum GiTokenKind {
+    GI_TOKEN_START, /* `<name`; the name and the value of each attribute follow */
+    GI_TOKEN_END,   /* up to the end of the tag; of <a/> the whole tag */
+    GI_TOKEN_TEXT,
+    GI_TOKEN_NUMBERS, /* an element's whole content when that is up to three numbers, which follow
+                       */
+    GI_TOKEN_SPAN     /* of an attribute */
+} GiTokenKind;
+
+enum { GI_TAPE_ATTRIBUTE_LIMIT = 4, GI_TAPE_NUMBER_LIMIT = 3 };
+
+typedef struct GiToken {
+    uint32_t at; /* in bytes from where the tape begins */
+    uint16_t size;
+    uint8_t kind;  /* GiTokenKind */
+    uint8_t count; /* of attributes or numbers */
+} GiToken;
+
+typedef union GiTapeEntry {
+    GiToken token;
+    double number;
+} GiTapeEntry;
+
+/* What a stretch of the file says. */
+typedef struct GiTape {
+    int64_t begin; /* the stretch's offset in the file */
+    GI_ARRAY(GiTapeEntry) entries;
+} GiTape;
+
+typedef enum GiScanStatus {
+    GI_SCAN_MORE,    /* the rest is not whole yet, or nothing is left */
+    GI_SCAN_STRANGE, /* the rest is for expat */
+    GI_SCAN_MEMORY
+} GiScanStatus;
+
+typedef struct GiScanner {
+    GiMemory *memory;
+    int64_t next;              /* offset of what is not scanned */
+    GI_ARRAY(char) open;       /* the tags of the open elements, without attributes: <a><b> */
+    GI_ARRAY(uint32_t) starts; /* of these tags */
+    bool begun;                /* the root element was seen */
+    uint8_t classes[256];      /* what each byte may be */
+} GiScanner;
+
+void gi_scanner_init(GiScanner *scanner, GiMemory *memory);
+void gi_scanner_reset(GiScanner *scanner);
+
+/* Scans the bytes at scanner->next, as far as they are whole tokens, and appends to the tape, which
+ * is emptied before. bytes[size] is readable and zero. */
+GiScanStatus gi_scan(GiScanner *scanner, const char *bytes, size_t size, GiTape *tape);
+
+/* Whether the root element is closed. */
+static inline bool gi_scanner_is_complete(const GiScanner *scanner) {
+    return scanner->begun && scanner->starts.count == 0;
+}
