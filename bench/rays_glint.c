@@ -105,7 +105,7 @@ static RayPass trace_shadow(const GiStage *stage, const RaySet *set) {
 }
 
 static RayPass trace_many(const GiWorld *world, const RaySet *set) {
-    enum { TOGETHER = 256 };
+    enum { TOGETHER = 1024 };
     GiTraceHit hits[TOGETHER];
     RayPass pass = {0, 0};
     double start = rays_seconds();

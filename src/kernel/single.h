@@ -246,14 +246,14 @@ static inline int push_children(const GiTree *tree, const GiShapes *shapes, Stac
 static bool line_instance(
     const GiShapes *shapes, uint32_t index, const GiTraceRay *ray, bool any, GiTraceHit *best);
 
-/* Keeps what the ray meets at t if that is the best so far. */
-static inline bool line_keep(const Line *line, GiShapeRef ref, double t, GiTraceHit *best) {
-    if (t > best->t) return false;
-    if (t == best->t && best->shape.bits != GI_SHAPE_NONE &&
-        !gi_shape_before(line->shapes, ref, line->instance, best->shape, best->instance)) {
+/* Keeps the hit if it is the best so far. */
+static inline bool keep_hit(const GiShapes *shapes, GiTraceHit hit, GiTraceHit *best) {
+    if (hit.t > best->t) return false;
+    if (hit.t == best->t && best->shape.bits != GI_SHAPE_NONE &&
+        !gi_shape_before(shapes, hit.shape, hit.instance, best->shape, best->instance)) {
         return false;
     }
-    *best = (GiTraceHit){t, ref, line->instance};
+    *best = hit;
     return true;
 }
 
@@ -271,7 +271,7 @@ static inline bool line_test(const Line *line, GiShapeRef ref, bool any, GiTrace
     const GiTraceRay *given = line->given;
     if (ref.bits == given->skip && line->instance == given->skip_instance) return false;
     if (!gi_hit_shape(line->shapes, ref, &line->ray, given->t_min, given->t_max, &t)) return false;
-    return line_keep(line, ref, t, best);
+    return keep_hit(line->shapes, (GiTraceHit){t, ref, line->instance}, best);
 }
 
 /* The same ray in the instance's space, where t is the same; gi_hit_to_object has the same

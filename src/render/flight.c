@@ -50,7 +50,7 @@ static void push_range(const GiStage *stage, size_t first) {
     }
 }
 
-enum { TRACED_TOGETHER = 256 }; /* between two questions whether to stop */
+enum { TRACED_TOGETHER = 1024 }; /* between two questions whether to stop */
 
 static void follow_chunk(const GiStage *stage, int count) {
     const GiWorld *world = stage->world;

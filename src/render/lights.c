@@ -146,7 +146,7 @@ static double away_of(const GiStage *stage, int i) {
 }
 
 /* Shadow rays that are traced together, and what arrives if nothing is in the way. */
-enum { BEAMS_TOGETHER = 256 };
+enum { BEAMS_TOGETHER = 1024 };
 typedef struct BeamBatch {
     int count;
     int point[BEAMS_TOGETHER];

@@ -61,7 +61,7 @@ static bool ask(const void *control) { return stopped(control); }
 
 /* The rays of a parallel camera have no point in common. */
 static void trace_apart(const GiStage *stage) {
-    enum { TOGETHER = 256 };
+    enum { TOGETHER = GI_BUNDLE_SIZE };
     const GiWorld *world = stage->world;
     GiBundle *bundle = &stage->scratch->bundle;
     GiTraceRay rays[TOGETHER];
