@@ -46,6 +46,7 @@
     X(save) \
     X(flight) \
     X(golden) \
+    X(tiles) \
     X(api) \
     X(load) \
     X(life) \
