@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Runs all tests, or those whose name contains one of the arguments.
- *   glint-tests [--source DIR] [--list] [--update-golden] [NAME...]
- * --update-golden writes tests/golden/hashes.txt instead of comparing with it. */
+ *   glint-tests [--source DIR] [--list] [--update-golden] [--rays COUNT] [NAME...]
+ * --update-golden writes tests/golden/hashes.txt instead of comparing with it; --rays says how many
+ * rays leak.closed_to_all_rays sends. */
 #define _XOPEN_SOURCE 700
 #include "scenes.h"
 #include "test.h"
@@ -28,6 +29,8 @@
     X(hit) \
     X(shape) \
     X(kernel) \
+    X(gate) \
+    X(leak) \
     X(stream) \
     X(image) \
     X(file) \
@@ -43,6 +46,7 @@
     X(save) \
     X(flight) \
     X(golden) \
+    X(tiles) \
     X(api) \
     X(load) \
     X(life) \
@@ -65,6 +69,7 @@ static const struct {
 static const char *source_dir = ".";
 static char scratch_dir[] = "/tmp/glint-tests-XXXXXX";
 static bool update_golden;
+static long long wanted_rays; /* 0: as many as usual */
 static int failure_count;
 static const char *skip_reason;
 
@@ -91,6 +96,17 @@ void test_check_text(
 
 bool test_update_golden(void) { return update_golden; }
 
+/* Sanitizers and builds without optimisation take ten to fifty times as long. */
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)
+enum { SLOWER = 20 };
+#else
+enum { SLOWER = 1 };
+#endif
+
+int test_slowness(void) { return SLOWER; }
+
+long long test_rays(long long usual) { return wanted_rays > 0 ? wanted_rays : usual / SLOWER; }
+
 const char *test_source_dir(void) { return source_dir; }
 
 const char *test_scratch_dir(void) { return scratch_dir; }
@@ -114,6 +130,9 @@ int main(int argc, char **argv) {
     bool list = false;
     for (; first < argc && strncmp(argv[first], "--", 2) == 0; first++) {
         if (strcmp(argv[first], "--source") == 0 && first + 1 < argc) source_dir = argv[++first];
+        if (strcmp(argv[first], "--rays") == 0 && first + 1 < argc) {
+            wanted_rays = atoll(argv[++first]);
+        }
         if (strcmp(argv[first], "--list") == 0) list = true;
         if (strcmp(argv[first], "--update-golden") == 0) update_golden = true;
     }

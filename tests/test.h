@@ -25,6 +25,13 @@ void test_fail(const char *file, int line, const char *format, ...);
 /* Marks the running test as skipped, with the reason; the test should return then. */
 void test_skip(const char *reason);
 
+/* About how many times longer this build takes than an optimised one without sanitizers. */
+int test_slowness(void);
+
+/* How many rays to trace where more are always better: what --rays says, else the usual number, or
+ * less where the build is slow. */
+long long test_rays(long long usual);
+
 /* Folder of the project's sources, of ../shared (null when absent), and one for scratch files. */
 const char *test_source_dir(void);
 const char *test_shared_dir(void);

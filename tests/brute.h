@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT
+ * A committed scene with a list of all that stands in its trees, and what a ray meets of that list,
+ * one shape after the other: what every kernel is held against. */
+#pragma once
+
+#include "render/world.h"
+
+typedef struct Thing {
+    GiShapeRef ref;
+    uint32_t instance;
+} Thing;
+
+typedef struct Fixture {
+    GiMemory memory;
+    GiScene scene;
+    GiWorld world;
+    GiPool *pool;
+    GI_ARRAY(Thing) things; /* all that stands in the trees, for brute force */
+} Fixture;
+
+/* An empty scene, to be filled; then its trees and the list. */
+void fixture_begin(Fixture *fixture, GlintDialect dialect);
+void fixture_commit(Fixture *fixture, const GiKernel *kernel);
+void fixture_end(Fixture *fixture);
+
+/* By shape/hit.h; of several at the same t the first in document order. */
+bool brute_force(const Fixture *fixture, const GiTraceRay *r, GiTraceHit *hit);
