@@ -36,8 +36,8 @@ static BenchScene parse_name(const char *name, int edge) {
         }
         if (kind != SAMPLE_TINY && name[length] == '-') {
             scene.sample.count = parse_count(name + length + 1);
-            bool samples = kind >= SAMPLE_LIGHTS && scene.sample.count > 65536;
-            if (scene.sample.count > 0 && !samples) return scene;
+            bool few = kind == SAMPLE_LIGHTS || kind >= SAMPLE_SHADOW; /* lights or samples */
+            if (scene.sample.count > 0 && !(few && scene.sample.count > 65536)) return scene;
         }
     }
     message_fail(
