@@ -64,6 +64,8 @@ bool scenes_has(const BenchScene *scene, SceneFormat format) {
     switch (format) {
     case FORMAT_TACHYON: return basic;
     case FORMAT_POVRAY:
+        /* Beyond, it would take longer than all the rest of the bench. */
+        if (scene->sample.count > 2000000) return false;
         return basic || kind == SAMPLE_SOLIDS || kind == SAMPLE_TINY || kind == SAMPLE_LIGHTS;
     default: return true;
     }

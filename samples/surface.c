@@ -336,8 +336,8 @@ uint64_t sample_group_count(const Sample *sample) {
     }
 }
 
-static SampleGroup tree_group(const Sample *sample) {
-    double height = tree_height(sample);
+static SampleGroup tree_group(const Sample *sample, double tallest) {
+    double height = fmin(tree_height(sample), tallest);
     return (SampleGroup){{0, 0, 0}, {0, 0, 0}, {height, height, height}};
 }
 
@@ -349,8 +349,8 @@ SampleGroup sample_group(const Sample *sample, uint64_t index) {
     case SAMPLE_ROOM: return room_groups[index];
     case SAMPLE_MIXED:
         return index < sample_group_count(&helices) ? helix_group(&helices, index)
-                                                    : tree_group(&forest);
-    default: return tree_group(sample);
+                                                    : tree_group(&forest, 2);
+    default: return tree_group(sample, INFINITY);
     }
 }
 
