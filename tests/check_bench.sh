@@ -66,9 +66,10 @@ spheres-1k,glint,1,1001,1024,1024,5,100,30,1,80,2026-01-01
 spheres-1k,glint,2,1001,1024,1024,5,60,30,1,42,2026-01-01
 spheres-1k,tachyon,1,1001,1024,1024,1,50,20,0.5,30,2026-01-02
 CSV
-cat >results/other-avx2-rays.csv <<'CSV'
+trees=build_ms,embree_build_ms,tree_bytes,embree_tree_bytes
+cat >results/other-avx2-rays.csv <<CSV
 # Other, avx2, 2 cores; kernels avx2; Embree 3.13.5
-scene,primitives,rays,glint_mray_per_second,embree_net_mray_per_second,embree_way,net_ratio,build_ms,embree_build_ms,tree_bytes,embree_tree_bytes
+scene,primitives,rays,glint_mray_per_second,embree_net_mray_per_second,embree_way,net_ratio,$trees
 spheres-1k,1001,camera,20,10,8 user high,2,1,2,36000,18000
 spheres-1k,1001,bounce,2,4,1 user high,0.5,1,2,36000,18000
 CSV
