@@ -48,6 +48,28 @@
 #include <immintrin.h>
 #endif
 
+/* ---------------------------------------------------------------- bits, memory */
+
+#if defined(__GNUC__)
+#define NOINLINE __attribute__((noinline))
+static inline void prefetch(const void *p) { __builtin_prefetch(p); }
+static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
+static inline int bit_count(unsigned bits) { return __builtin_popcount(bits); }
+#else
+#define NOINLINE
+static inline void prefetch(const void *p) { (void)p; }
+static inline int lowest_bit(unsigned bits) {
+    int index = 0;
+    while (!(bits >> index & 1)) index++;
+    return index;
+}
+static inline int bit_count(unsigned bits) {
+    int count = 0;
+    for (; bits != 0; bits &= bits - 1) count++;
+    return count;
+}
+#endif
+
 /* ---------------------------------------------------------------- floats: culling */
 
 #if defined(GI_IS_AVX512) || defined(GI_IS_AVX2)
@@ -91,43 +113,36 @@ static inline F f_fused(F a, F b, F c) { return a * b + c; }
 static inline unsigned f_less_equal(F a, F b) { return a <= b; }
 #endif
 
-/* The smallest and the largest of count numbers, a multiple of sixteen. */
-#if defined(GI_IS_AVX512)
-static inline float f_lowest(const float *p, int count) {
-    __m512 least = _mm512_loadu_ps(p);
-    for (int i = 16; i < count; i += 16) least = _mm512_min_ps(_mm512_loadu_ps(p + i), least);
-    return _mm512_reduce_min_ps(least);
-}
-static inline float f_highest(const float *p, int count) {
-    __m512 most = _mm512_loadu_ps(p);
-    for (int i = 16; i < count; i += 16) most = _mm512_max_ps(_mm512_loadu_ps(p + i), most);
-    return _mm512_reduce_max_ps(most);
-}
+/* The smallest and the largest of the lanes. */
+#if defined(GI_IS_PORTABLE)
+static inline float f_least(F a) { return a; }
+static inline float f_most(F a) { return a; }
 #else
-/* Lane by lane, halves against each other. */
+#if defined(GI_IS_SSE2)
+#define F_FOLD(op, a) (a)
+#else
+#define F_FOLD(op, a) op(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1))
+#endif
+#define F_REDUCE(op, a)                                                                            \
+    __m128 four = F_FOLD(op, a), two = op(four, _mm_movehl_ps(four, four));                        \
+    return _mm_cvtss_f32(op(two, _mm_shuffle_ps(two, two, 1)))
+static inline float f_least(F a) { F_REDUCE(_mm_min_ps, a); }
+static inline float f_most(F a) { F_REDUCE(_mm_max_ps, a); }
+#undef F_REDUCE
+#undef F_FOLD
+#endif
+
+/* The same of count numbers, a multiple of sixteen. */
 static inline float f_lowest(const float *p, int count) {
     F least = f_load(p);
     for (int i = GI_FLOATS; i < count; i += GI_FLOATS) least = f_min(f_load(p + i), least);
-    float lane[GI_FLOATS];
-    f_store(lane, least);
-    for (int half = GI_FLOATS / 2; half > 0; half /= 2) {
-        for (int i = 0; i < half; i++)
-            lane[i] = lane[i + half] < lane[i] ? lane[i + half] : lane[i];
-    }
-    return lane[0];
+    return f_least(least);
 }
 static inline float f_highest(const float *p, int count) {
     F most = f_load(p);
     for (int i = GI_FLOATS; i < count; i += GI_FLOATS) most = f_max(f_load(p + i), most);
-    float lane[GI_FLOATS];
-    f_store(lane, most);
-    for (int half = GI_FLOATS / 2; half > 0; half /= 2) {
-        for (int i = 0; i < half; i++)
-            lane[i] = lane[i + half] > lane[i] ? lane[i + half] : lane[i];
-    }
-    return lane[0];
+    return f_most(most);
 }
-#endif
 
 /* Sixteen numbers against one: bits of those where x <= p[i], and where p[i] <= x. */
 #if defined(GI_IS_AVX512)
@@ -197,25 +212,6 @@ static inline unsigned sixteen_equal(uint32_t value, const uint32_t p[16]) {
     unsigned bits = 0;
     for (int i = 0; i < 16; i++) bits |= (unsigned)(p[i] == value) << i;
     return bits;
-#endif
-}
-
-/* Writes base + i for every bit i of sixteen, in order, and returns how many. There must be room
- * for sixteen. */
-static inline int sixteen_append(uint32_t *to, unsigned bits, uint32_t base) {
-#if defined(GI_IS_AVX512)
-    const __m512i count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-    __m512i all = _mm512_add_epi32(count, _mm512_set1_epi32((int)base));
-    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, all));
-    return _mm_popcnt_u32(bits);
-#else
-    int count = 0;
-    for (; bits != 0; bits &= bits - 1) {
-        uint32_t i = 0;
-        while (!(bits >> i & 1)) i++;
-        to[count++] = base + i;
-    }
-    return count;
 #endif
 }
 
@@ -377,6 +373,24 @@ static inline void sixteen_gamma(const uint32_t *table, const float p[16], uint8
 }
 #endif
 
+/* Writes base + i for every bit i of sixteen, in order, and returns how many. There must be room
+ * for sixteen. */
+static inline int sixteen_append(uint32_t *to, unsigned bits, uint32_t base) {
+#if defined(GI_IS_AVX512)
+    const __m512i count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    __m512i all = _mm512_add_epi32(count, _mm512_set1_epi32((int)base));
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, all));
+    return _mm_popcnt_u32(bits);
+#elif defined(GI_HAS_EIGHT)
+    int count = eight_append_indices(to, base, bits & 0xff);
+    return count + eight_append_indices(to + count, base + 8, bits >> 8);
+#else
+    int count = 0;
+    for (; bits != 0; bits &= bits - 1) to[count++] = base + (uint32_t)lowest_bit(bits);
+    return count;
+#endif
+}
+
 /* ---------------------------------------------------------------- doubles: deciding */
 
 #if defined(GI_IS_AVX512)
@@ -452,8 +466,9 @@ enum { GI_DOUBLES = 4 };
 #define R_ABS(a)           _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
 static inline unsigned m_bits(M m) { return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(m)); }
 static inline M m_from_bytes(const uint8_t *p) {
-    return _mm256_set_epi64x(
-        -(long long)p[3], -(long long)p[2], -(long long)p[1], -(long long)p[0]);
+    int all;
+    memcpy(&all, p, sizeof all);
+    return _mm256_sub_epi64(_mm256_setzero_si256(), _mm256_cvtepu8_epi64(_mm_cvtsi32_si128(all)));
 }
 static inline R r_load(const double *p) { return _mm256_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm256_storeu_pd(p, a); }
@@ -462,6 +477,15 @@ static inline R r_from_floats(const float *p) { return _mm256_cvtps_pd(_mm_loadu
 static inline R r_gather(const double *p, const uint32_t *index, int stride) {
     __m128i all = _mm_loadu_si128((const __m128i *)(const void *)index);
     return _mm256_i32gather_pd(p, _mm_mullo_epi32(all, _mm_set1_epi32(stride)), 8);
+}
+static inline void u_gather(uint32_t *to, const uint32_t *p, const uint32_t *index) {
+    __m128i all = _mm_loadu_si128((const __m128i *)(const void *)index);
+    _mm_storeu_si128(
+        (__m128i *)(void *)to, _mm_i32gather_epi32((const int *)(const void *)p, all, 4));
+}
+static inline void u_widen(uint32_t *to, const uint16_t *from) {
+    __m128i all = _mm_loadl_epi64((const __m128i *)(const void *)from);
+    _mm_storeu_si128((__m128i *)(void *)to, _mm_cvtepu16_epi32(all));
 }
 #elif defined(GI_IS_SSE2)
 enum { GI_DOUBLES = 2 };
@@ -555,12 +579,14 @@ static inline void u_append_indices(uint32_t *to, unsigned bits, uint32_t base) 
         to += bits >> i & 1;
     }
 }
+#ifndef GI_IS_AVX2
 static inline void u_gather(uint32_t *to, const uint32_t *p, const uint32_t *index) {
     for (int i = 0; i < GI_DOUBLES; i++) to[i] = p[index[i]];
 }
 static inline void u_widen(uint32_t *to, const uint16_t *from) {
     for (int i = 0; i < GI_DOUBLES; i++) to[i] = from[i];
 }
+#endif
 #endif
 
 /* As R_SELECT, of what comparisons give. */
@@ -573,25 +599,3 @@ static inline void u_copy(uint32_t *to, const uint32_t *from) {
 static inline void u_fill(uint32_t *to, uint32_t value) {
     for (int i = 0; i < GI_DOUBLES; i++) to[i] = value;
 }
-
-/* ---------------------------------------------------------------- bits, memory */
-
-#if defined(__GNUC__)
-#define NOINLINE __attribute__((noinline))
-static inline void prefetch(const void *p) { __builtin_prefetch(p); }
-static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
-static inline int bit_count(unsigned bits) { return __builtin_popcount(bits); }
-#else
-#define NOINLINE
-static inline void prefetch(const void *p) { (void)p; }
-static inline int lowest_bit(unsigned bits) {
-    int index = 0;
-    while (!(bits >> index & 1)) index++;
-    return index;
-}
-static inline int bit_count(unsigned bits) {
-    int count = 0;
-    for (; bits != 0; bits &= bits - 1) count++;
-    return count;
-}
-#endif
