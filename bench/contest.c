@@ -35,11 +35,13 @@ static void check_picture(Contest *contest, const Command *command, bool warm_up
     fprintf(stderr, "  kept as %s\n", good ? kept : "nothing");
 }
 
-static void run_once(const Field *field, Contest *contest, Program program, int threads, int rep) {
-    Entry *entry = &contest->entries[program][threads - 1];
+/* A peer that has run for that long has said what it has to say: seconds. */
+static const double peer_enough = 5;
+
+static void run_once(const Field *field, Contest *contest, Program program, Entry *entry, int rep) {
     bool warm_up = rep < 0;
     Command command;
-    program_command(field, &contest->scene, program, threads, warm_up, &command);
+    program_command(field, &contest->scene, program, entry->threads, warm_up, &command);
     remove(command.picture);
     ProcessResult result = process_run(command.arguments, command.output, command.error);
     if (!result.good && program == PROGRAM_GLINT) {
@@ -53,12 +55,14 @@ static void run_once(const Field *field, Contest *contest, Program program, int 
     if (is_glint(program)) {
         check_picture(contest, &command, warm_up, entry);
     }
-    if (warm_up) return;
+    entry->spent_seconds += result.wall_seconds;
+    if (warm_up && (is_glint(program) || result.wall_seconds < peer_enough)) return;
+    if (warm_up) rep = 0; /* the only one */
     entry->values[MEASURE_WALL][rep] = result.wall_seconds;
     entry->values[MEASURE_CPU][rep] = result.cpu_seconds;
     entry->values[MEASURE_PEAK][rep] = (double)result.peak_size;
+    program_phases(program, command.output, entry, rep);
     if (is_glint(program)) {
-        program_phases(command.output, entry, rep);
         entry->read_size += (double)scenes_mesh_size(&contest->scene, field->cache);
     }
     entry->rep_count = rep + 1;
@@ -67,10 +71,13 @@ static void run_once(const Field *field, Contest *contest, Program program, int 
 /* A thread more or less must not change a picture, and of another revision one wants to know. */
 static void compare_pictures(Contest *contest) {
     for (int program = PROGRAM_GLINT; program <= PROGRAM_OTHER_GLINT; program++) {
-        const Entry *one = &contest->entries[program][0], *two = &contest->entries[program][1];
-        if (one->pixel_hash != two->pixel_hash || one->file_hash != two->file_hash) {
-            complain(contest, contest_program_name((Program)program),
-                "draws different pictures with one and with two threads");
+        const Entry *one = &contest->entries[program][0];
+        for (const Entry *more = one + 1; more < one + CREW_MAX; more++) {
+            if (more->threads == 0) continue;
+            if (one->pixel_hash != more->pixel_hash || one->file_hash != more->file_hash) {
+                complain(contest, contest_program_name((Program)program),
+                    "draws different pictures with one and with more threads");
+            }
         }
     }
     const Entry *ours = contest->entries[PROGRAM_GLINT];
@@ -124,7 +131,7 @@ double contest_against(const Contest *contest, Measure measure, int threads) {
 
 static void summarise(Contest *contest) {
     for (int program = 0; program < PROGRAM_COUNT; program++) {
-        for (int i = 0; i < THREADS_MAX; i++) {
+        for (int i = 0; i < CREW_MAX; i++) {
             Entry *entry = &contest->entries[program][i];
             if (entry->broken) entry->rep_count = 0;
             for (int measure = 0; measure < MEASURE_COUNT; measure++) {
@@ -149,10 +156,25 @@ static void run_round(const Field *field, Contest *contest, Program end, int rep
     for (int program = 0; program < (int)end; program++) {
         if (field->paths[program][0] == '\0') continue;
         if (!scenes_has(&contest->scene, program_format((Program)program))) continue;
-        for (int threads = 1; threads <= THREADS_MAX; threads++) {
-            if (contest->entries[program][threads - 1].broken) continue;
-            run_once(field, contest, (Program)program, threads, rep);
+        for (int i = 0; i < CREW_MAX; i++) {
+            Entry *entry = &contest->entries[program][i];
+            bool enough = !is_glint((Program)program) && entry->spent_seconds >= peer_enough;
+            if (entry->threads == 0 || entry->broken || (enough && entry->rep_count > 0)) continue;
+            run_once(field, contest, (Program)program, entry, rep);
         }
+    }
+}
+
+static void set_threads(const Field *field, Contest *contest) {
+    for (int program = 0; program < PROGRAM_COUNT; program++) {
+        Entry *entry = contest->entries[program];
+        for (int i = 0; i < THREADS_MAX; i++) entry[i].threads = i + 1;
+    }
+    Entry *entry = &contest->entries[PROGRAM_GLINT][THREADS_MAX];
+    const Entry *end = &contest->entries[PROGRAM_GLINT][CREW_MAX];
+    for (int threads = 2; threads < field->threads_most && entry < end; entry++) {
+        threads = 2 * threads < field->threads_most ? 2 * threads : field->threads_most;
+        entry->threads = threads;
     }
 }
 
@@ -161,6 +183,7 @@ void contest_run(const Field *field, const BenchScene *scene, Contest *contest) 
     memset(contest, 0, sizeof *contest);
     contest->scene = *scene;
     contest->surface_count = sample_drawn_count(&scene->sample);
+    set_threads(field, contest);
     for (int rep = -1; rep < field->rep_count; rep++) {
         run_round(field, contest, PROGRAM_COUNT, rep);
     }

@@ -23,6 +23,7 @@ typedef struct Field {
     char paths[PROGRAM_COUNT][PATH_SIZE];
     char cache[PATH_SIZE]; /* folder of scenes and pictures */
     int rep_count;
+    int threads_most; /* of Glint */
 } Field;
 
 typedef enum Measure {
@@ -39,10 +40,13 @@ typedef enum Measure {
     MEASURE_COUNT
 } Measure;
 
-enum { THREADS_MAX = 2, REP_MAX = 100 };
+/* All programs run with one thread and with two, the Glint that is measured also with 4, 8, ... */
+enum { THREADS_MAX = 2, CREW_MAX = 12, REP_MAX = 100 };
 
 typedef struct Entry {
-    int rep_count; /* 0: did not run, or broke down */
+    int threads;
+    double spent_seconds; /* by all runs, also the first */
+    int rep_count;        /* 0: did not run, or broke down */
     bool broken;
     uint64_t pixel_hash, file_hash;                         /* of the picture as .pfm and as .png */
     double read_size, primitives, camera_rays, shadow_rays; /* what the seconds were spent on */
@@ -56,7 +60,7 @@ typedef struct Contest {
     int fault_count;  /* pictures that are not the same although they should be */
     int slower_count; /* phases in which the other Glint is clearly faster */
     bool new_picture; /* the other Glint draws another one */
-    Entry entries[PROGRAM_COUNT][THREADS_MAX];
+    Entry entries[PROGRAM_COUNT][CREW_MAX]; /* 1 thread, 2, 4, ... */
 } Contest;
 
 /* "glint", "tachyon", "povray +BM1", ... */

@@ -52,5 +52,5 @@ void machine_file_name(char *text, size_t size) {
         }
     }
     while (used > 0 && model[used - 1] == '-') used--;
-    message_format(text, size, "%.*s-%s.csv", (int)used, model, glint_isa_name(0));
+    message_format(text, size, "%.*s-%s", (int)used, model, glint_isa_name(0));
 }

@@ -12,6 +12,7 @@
 #include "picture.h"
 #include "process.h"
 #include "report.h"
+#include "table.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -53,6 +54,7 @@ static void find_programs(const Options *options, const char *folder, Field *fie
         require(paths[PROGRAM_OTHER_GLINT]);
         return; /* the question is another one, and peers would make the answer late */
     }
+    if (options->alone) return;
     if (!process_find("tachyon", paths[PROGRAM_TACHYON], PATH_SIZE)) {
         paths[PROGRAM_TACHYON][0] = '\0';
         puts("Tachyon is not installed: no comparison with it");
@@ -77,22 +79,41 @@ static void report_details(const Contest *contests, int count, const EncodeResul
         1e-3 * (double)encode->size);
 }
 
-static void save(const Contest *contests, int count, const EncodeResult *encode, const char *path) {
-    FILE *file = fopen(path, "w");
-    if (file == NULL) message_fail("%s cannot be written", path);
-    char machine[512];
+static void save(
+    const Options *options, const Contest *contests, int count, const EncodeResult *encode) {
+    char machine[256], name[256], date[DATE_SIZE], path[PATH_SIZE], *rows = NULL;
+    size_t size;
+    FILE *file = open_memstream(&rows, &size);
+    if (file == NULL) message_fail("not enough memory");
+    table_date(date);
+    report_csv(contests, count, encode, date, file);
+    if (fclose(file) != 0) message_fail("not enough memory");
     machine_describe(machine, sizeof machine);
-    fprintf(file, "# %s\n", machine);
-    report_csv(contests, count, encode, file);
-    bool good = !ferror(file);
-    if (fclose(file) != 0 || !good) message_fail("%s cannot be written", path);
-    printf("the numbers are in %s\n", path);
+    if (options->csv != NULL) table_save(options->csv, machine, rows, false);
+    if (options->results != NULL) {
+        machine_file_name(name, sizeof name);
+        message_format(path, sizeof path, "%s/%s.csv", options->results, name);
+        table_save(path, machine, rows, true);
+        printf("the numbers are in %s\n", path);
+    }
+    free(rows);
+}
+
+/* To the terminal: what is measured may be piped elsewhere. */
+static void tell_progress(const BenchScene *scene, int index, int count, double start) {
+    int seconds = (int)(process_seconds() - start);
+    fprintf(stderr, "glint-bench: %s, %d of %d, after %d:%02d minutes\n", scene->name, index + 1,
+        count, seconds / 60, seconds % 60);
 }
 
 int main(int argc, char **argv) {
     static Field field;
     static BenchScene scenes[SCENE_MAX];
     Options options = options_parse(argc, argv);
+    if (options.only_page) {
+        page_write(options.results, options.page);
+        return 0;
+    }
     int count = scenes_parse(options.scenes, options.edge, scenes);
     Contest *contests = calloc((size_t)count, sizeof contests[0]);
     if (contests == NULL) message_fail("not enough memory");
@@ -110,11 +131,15 @@ int main(int argc, char **argv) {
         free(contests);
         return 0;
     }
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
     field.rep_count = options.rep_count;
+    field.threads_most = options.threads_most > 0 ? options.threads_most : (int)cores;
     find_programs(&options, folder, &field);
 
     int fault_count = 0, slower_count = 0;
+    double start = process_seconds();
     for (int i = 0; i < count; i++) {
+        tell_progress(&scenes[i], i, count, start);
         contest_run(&field, &scenes[i], &contests[i]);
         report_scene(&contests[i]);
         fault_count += contests[i].fault_count;
@@ -124,13 +149,7 @@ int main(int argc, char **argv) {
     EncodeResult encode = picture_encode(options.rep_count);
     report_details(contests, count, &encode);
 
-    if (options.csv != NULL) save(contests, count, &encode, options.csv);
-    if (options.results != NULL) {
-        char name[512];
-        machine_file_name(name, sizeof name);
-        message_format(text, sizeof text, "%s/%s", options.results, name);
-        save(contests, count, &encode, text);
-    }
+    save(&options, contests, count, &encode);
     if (options.results != NULL && options.page != NULL) page_write(options.results, options.page);
     free(contests);
     if (fault_count > 0) message_fail("%d wrong pictures, see above", fault_count);

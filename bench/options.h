@@ -12,7 +12,10 @@ typedef struct Options {
     const char *results;  /* folder for the CSV named for the machine; null: none */
     const char *page;     /* made of the folder of results; null: none */
     const char *pictures; /* folder for the pictures of noise; null: none */
+    bool alone;           /* no peers */
     bool noise;           /* measure that instead */
+    bool only_page;       /* measure nothing */
+    int threads_most;     /* of Glint; 0: as many as there are cores */
     int rep_count;
     int edge; /* of a picture, pixels */
 } Options;

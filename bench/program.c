@@ -101,12 +101,7 @@ static double number(const char *json, const char *object, const char *key) {
     return place != NULL ? strtod(place + strlen(quoted), NULL) : 0;
 }
 
-void program_phases(const char *output_path, Entry *entry, int rep) {
-    char json[16384];
-    FILE *file = fopen(output_path, "r");
-    size_t length = file != NULL ? fread(json, 1, sizeof json - 1, file) : 0;
-    if (file != NULL) fclose(file);
-    json[length] = '\0';
+static void phases_of_glint(const char *json, Entry *entry, int rep) {
     entry->values[MEASURE_READ][rep] = number(json, "seconds", "read");
     entry->values[MEASURE_BUILD][rep] = number(json, "seconds", "build");
     entry->values[MEASURE_TRACE][rep] = number(json, "seconds", "trace");
@@ -116,4 +111,28 @@ void program_phases(const char *output_path, Entry *entry, int rep) {
     entry->primitives = number(json, "tree", "primitives");
     entry->camera_rays = number(json, "rays", "camera");
     entry->shadow_rays = number(json, "rays", "shadow");
+}
+
+/* "  Ray Tracing Time:     0.8925 seconds" and the like. */
+static void phases_of_tachyon(const char *text, Entry *entry, int rep) {
+    static const struct {
+        Measure measure;
+        const char *before;
+    } phases[] = {{MEASURE_READ, "Scene Parsing Time:"}, {MEASURE_BUILD, "Preprocessing Time:"},
+        {MEASURE_TRACE, "Ray Tracing Time:"}, {MEASURE_WRITE, "Image I/O Time:"}};
+    for (size_t i = 0; i < sizeof phases / sizeof phases[0]; i++) {
+        const char *place = strstr(text, phases[i].before);
+        if (place == NULL) continue;
+        entry->values[phases[i].measure][rep] = strtod(place + strlen(phases[i].before), NULL);
+    }
+}
+
+void program_phases(Program program, const char *output_path, Entry *entry, int rep) {
+    char text[16384];
+    FILE *file = fopen(output_path, "r");
+    size_t length = file != NULL ? fread(text, 1, sizeof text - 1, file) : 0;
+    if (file != NULL) fclose(file);
+    text[length] = '\0';
+    if (program <= PROGRAM_OTHER_GLINT) phases_of_glint(text, entry, rep);
+    if (program == PROGRAM_TACHYON) phases_of_tachyon(text, entry, rep);
 }

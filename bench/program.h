@@ -19,6 +19,6 @@ SceneFormat program_format(Program program);
 void program_command(const Field *field, const BenchScene *scene, Program program, int threads,
     bool exact, Command *command);
 
-/* Fills the measures of the phases, and what they were spent on, from what glint --stats=json left
- * in the file. */
-void program_phases(const char *output_path, Entry *entry, int rep);
+/* Fills the measures of the phases from what glint --stats=json or Tachyon left in the file, and of
+ * Glint also what they were spent on. POV-Ray is silent. */
+void program_phases(Program program, const char *output_path, Entry *entry, int rep);

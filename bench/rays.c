@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT
  * glint-bench-rays: how many rays a second do the kernels trace, and how many does Embree? One
  * thread, the rays alone: no reading, no shading, no writing. */
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "glint/glint.h"
 #include "machine.h"
 #include "message.h"
 #include "rays_contest.h"
 #include "rays_embree.h"
 #include "rays_report.h"
+#include "table.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,26 +23,33 @@ static void require_isa(const char *isa) {
     message_fail("this machine has no '%s'", isa);
 }
 
-static FILE *open_csv(const char *path, const char *isa) {
-    if (path == NULL) return NULL;
-    FILE *file = fopen(path, "w");
-    if (file == NULL) message_fail("%s cannot be written", path);
-    char machine[512];
+/* Where the numbers go: all into the file of --csv, with those of other scenes into that of
+ * --results. */
+static void save(const RaysOptions *options, const char *isa, const char *rows) {
+    char machine[256], name[256], head[512], path[4096];
     machine_describe(machine, sizeof machine);
-    fprintf(file, "# %s; kernels %s; %s\n", machine, isa, embree_version());
-    rays_report_csv_head(file);
-    return file;
+    message_format(head, sizeof head, "%s; kernels %s; %s", machine, isa, embree_version());
+    if (options->csv != NULL) table_save(options->csv, head, rows, false);
+    if (options->results == NULL) return;
+    machine_file_name(name, sizeof name);
+    message_format(path, sizeof path, "%s/%s-rays.csv", options->results, name);
+    table_save(path, head, rows, true);
+    printf("the numbers are in %s\n", path);
 }
 
 int main(int argc, char **argv) {
     message_program = "glint-bench-rays";
     RaysOptions options = rays_options_parse(argc, argv);
     require_isa(options.isa);
-    char machine[512];
+    char machine[512], date[DATE_SIZE], *rows = NULL;
     machine_describe(machine, sizeof machine);
+    table_date(date);
     const char *isa = options.isa != NULL ? options.isa : glint_isa_name(0);
     printf("%s; kernels %s\n%s\n", machine, isa, embree_version());
-    FILE *csv = open_csv(options.csv, isa);
+    size_t size;
+    FILE *csv = open_memstream(&rows, &size);
+    if (csv == NULL) message_fail("not enough memory");
+    rays_report_csv_head(csv);
     rays_report_head();
     int fault_count = 0;
     const char *names = options.scenes;
@@ -52,11 +61,10 @@ int main(int argc, char **argv) {
         RaysResult result;
         rays_contest(&options, name, &result);
         fault_count += rays_report(&result);
-        if (csv != NULL) rays_report_csv(&result, csv);
+        rays_report_csv(&result, date, csv);
     }
-    if (csv != NULL) {
-        bool good = !ferror(csv);
-        if (fclose(csv) != 0 || !good) message_fail("%s cannot be written", options.csv);
-    }
+    if (fclose(csv) != 0) message_fail("not enough memory");
+    save(&options, isa, rows);
+    free(rows);
     return fault_count > 0 ? 3 : 0;
 }

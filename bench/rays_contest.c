@@ -115,8 +115,8 @@ static void keep_best(
 
 /* ---------------------------------------------------------------- the contest */
 
-static void run_kind(
-    GlintTracer *tracer, Embree *embree, const RaySet *set, int reps, RaysKindResult *result) {
+static void run_kind(GiWorld *world, GlintTracer *tracer, Embree *embree, const RaySet *set,
+    int reps, RaysKindResult *result) {
     static Way ways[WAY_MAX];
     double together[REP_MAX], single[REP_MAX];
     result->ray_count = set->count;
@@ -133,6 +133,7 @@ static void run_kind(
     result->together = statistics_spread(together, reps);
     result->single = statistics_spread(single, reps);
     if (embree != NULL) keep_best(embree, ways, way_count, reps, result);
+    result->counts = rays_count(world, tracer, set);
 }
 
 static void keep_tree(const Embree *embree, RaysResult *result) {
@@ -157,7 +158,8 @@ void rays_contest(const RaysOptions *options, const char *name, RaysResult *resu
     rays_make(&scene->world, sets);
     GlintTracer *tracer = glint_tracer_create(&scene->world);
     for (int kind = 0; kind < RAY_KIND_COUNT; kind++) {
-        run_kind(tracer, embree, &sets[kind], options->rep_count, &result->kinds[kind]);
+        run_kind(
+            &scene->world, tracer, embree, &sets[kind], options->rep_count, &result->kinds[kind]);
     }
     glint_tracer_destroy(tracer);
     rays_free(sets);

@@ -2,6 +2,7 @@
  * One scene traced by both, in turns. */
 #pragma once
 
+#include "rays_count.h"
 #include "rays_options.h"
 #include "rays_set.h"
 #include "statistics.h"
@@ -13,6 +14,7 @@ typedef struct RaysKindResult {
     Spread embree, harness; /* of Embree's best way; what of it is not Embree */
     char way[32];           /* that way: mode and tree */
     size_t hit_count, embree_hit_count;
+    RaysCounts counts;
 } RaysKindResult;
 
 typedef struct RaysResult {

@@ -16,6 +16,8 @@ static const char usage[] =
     "  --reps N        passes that count, in turns (default: 5)\n"
     "  --isa NAME      the instruction set of both (avx512, avx2, sse2), not the best\n"
     "  --csv FILE      write the numbers to FILE\n"
+    "  --results DIR   write them to a file in DIR that is named for this machine, where the\n"
+    "                  numbers of other scenes stay\n"
     "  --quick         small scenes and pictures, three passes\n"
     "\n"
     "Status: 0 good; 1 nothing measured; 2 wrong use; 3 the hits of both differ.\n";
@@ -29,15 +31,16 @@ static _Noreturn void stop(int status, const char *problem, const char *argument
 
 RaysOptions rays_options_parse(int argc, char **argv) {
     RaysOptions options = {
-        .scenes = "spheres-1k,spheres-10k,spheres-100k,spheres-1m,torus-10k,torus-100k,torus-1m",
+        .scenes = "spheres-1k,spheres-10k,spheres-100k,spheres-1m,torus-10k,torus-100k,torus-1m,"
+                  "solids-100k,mixed-100k",
         .rep_count = 5,
         .edge = 1024,
     };
     const char *scenes = NULL, *reps = NULL;
     const struct {
         const char *name, **value;
-    } with_value[] = {
-        {"--scenes", &scenes}, {"--reps", &reps}, {"--isa", &options.isa}, {"--csv", &options.csv}};
+    } with_value[] = {{"--scenes", &scenes}, {"--reps", &reps}, {"--isa", &options.isa},
+        {"--csv", &options.csv}, {"--results", &options.results}};
     const size_t count = sizeof with_value / sizeof with_value[0];
 
     for (int i = 1; i < argc; i++) {
@@ -47,7 +50,7 @@ RaysOptions rays_options_parse(int argc, char **argv) {
             if (i + 1 == argc) stop(2, "nothing follows", argv[i]);
             *with_value[row].value = argv[++i];
         } else if (strcmp(argv[i], "--quick") == 0) {
-            options.scenes = "spheres-1k,torus-10k";
+            options.scenes = "spheres-1k,torus-10k,mixed-1k";
             options.rep_count = 3;
             options.edge = 256;
         } else if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {

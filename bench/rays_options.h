@@ -3,9 +3,10 @@
 #pragma once
 
 typedef struct RaysOptions {
-    const char *scenes; /* comma-separated */
-    const char *isa;    /* null: the fastest */
-    const char *csv;    /* null: none */
+    const char *scenes;  /* comma-separated */
+    const char *isa;     /* null: the fastest */
+    const char *csv;     /* null: none */
+    const char *results; /* folder for the CSV named for the machine; null: none */
     int rep_count;
     int edge; /* of pictures of computed scenes, pixels */
 } RaysOptions;

@@ -20,10 +20,22 @@ static double difference(const RaysKindResult *result) {
 }
 
 void rays_report_head(void) {
+    printf("\nMray/s on one thread; gross: with what the harness costs Embree, net: without it\n");
     printf(
-        "\nMray/s on one thread; gross: with what the harness costs Embree, net: without it\n\n");
-    printf("%-16s %-7s %9s %8s %8s %8s %8s %7s %7s  %-15s %6s %8s\n", "scene", "rays", "count",
-        "glint", "single", "Embree", "net", "ratio", "net", "best way", "hits", "differ");
+        "nodes, leaves, shapes: how many of each are tested for a ray; a bundle counts once\n\n");
+    printf("%-16s %-7s %9s %8s %8s %8s %8s %7s %7s  %-15s %6s %8s %8s %8s %8s\n", "scene", "rays",
+        "count", "glint", "single", "Embree", "net", "ratio", "net", "best way", "hits", "differ",
+        "nodes", "leaves", "shapes");
+}
+
+static double each(const RaysKindResult *result, double count) {
+    return count / (double)result->ray_count;
+}
+
+static void print_counts(const RaysKindResult *result) {
+    const RaysCounts *counts = &result->counts;
+    printf(" %8.3f %8.3f %8.3f", each(result, counts->nodes), each(result, counts->leaves),
+        each(result, counts->shapes));
 }
 
 static bool print_kind(const RaysResult *scene, RayKind kind) {
@@ -32,16 +44,19 @@ static bool print_kind(const RaysResult *scene, RayKind kind) {
     double hits = (double)result->hit_count / (double)result->ray_count;
     printf("%-16s %-7s %9zu %8.2f %8.2f", scene->name, rays_kind_name(kind), result->ray_count,
         rate(result, result->together.median), rate(result, result->single.median));
-    if (!scene->has_embree) {
-        printf(" %8s %8s %7s %7s  %-15s %5.1f%%\n", "-", "-", "-", "-", "-", 100 * hits);
-        return true;
+    bool agree = result->counts.hit_count == result->hit_count;
+    if (scene->has_embree) {
+        agree = agree && fabs(difference(result)) <= DIFFERENCE_LIMIT;
+        printf(" %8.2f %8.2f %7.2f %7.2f  %-15s %5.1f%% %+4.0f ppm",
+            rate(result, result->embree.median), rate(result, net_seconds(result)),
+            result->embree.median / result->together.median,
+            net_seconds(result) / result->together.median, result->way, 100 * hits,
+            1e6 * difference(result));
+    } else {
+        printf(" %8s %8s %7s %7s  %-15s %5.1f%% %8s", "-", "-", "-", "-", "-", 100 * hits, "-");
     }
-    bool agree = fabs(difference(result)) <= DIFFERENCE_LIMIT;
-    printf(" %8.2f %8.2f %7.2f %7.2f  %-15s %5.1f%% %+4.0f ppm%s\n",
-        rate(result, result->embree.median), rate(result, net_seconds(result)),
-        result->embree.median / result->together.median,
-        net_seconds(result) / result->together.median, result->way, 100 * hits,
-        1e6 * difference(result), agree ? "" : "  HITS DIFFER");
+    print_counts(result);
+    puts(agree ? "" : "  HITS DIFFER");
     return agree;
 }
 
@@ -67,11 +82,12 @@ int rays_report(const RaysResult *result) {
 void rays_report_csv_head(FILE *file) {
     fputs("scene,primitives,rays,count,hits,embree_hits,glint_mray_per_second,"
           "glint_single_mray_per_second,embree_mray_per_second,embree_net_mray_per_second,"
-          "embree_way,ratio,net_ratio,build_ms,tree_bytes,embree_build_ms,embree_tree_bytes\n",
+          "embree_way,ratio,net_ratio,build_ms,tree_bytes,embree_build_ms,embree_tree_bytes,"
+          "nodes_per_ray,leaves_per_ray,shapes_per_ray,date\n",
         file);
 }
 
-void rays_report_csv(const RaysResult *scene, FILE *file) {
+void rays_report_csv(const RaysResult *scene, const char *date, FILE *file) {
     for (int kind = 0; kind < RAY_KIND_COUNT; kind++) {
         const RaysKindResult *result = &scene->kinds[kind];
         if (result->ray_count == 0) continue;
@@ -94,6 +110,7 @@ void rays_report_csv(const RaysResult *scene, FILE *file) {
         } else {
             fputs(",", file);
         }
-        fputs("\n", file);
+        fprintf(file, ",%.4f,%.4f,%.4f,%s\n", each(result, result->counts.nodes),
+            each(result, result->counts.leaves), each(result, result->counts.shapes), date);
     }
 }

@@ -31,18 +31,17 @@ static double rival_ratio(const Contest *contest, int rival, int threads) {
 
 /* ---------------------------------------------------------------- one scene */
 
-static void print_entry(const Contest *contest, Program program, int threads) {
-    const Entry *entry = &contest->entries[program][threads - 1];
+static void print_entry(const Contest *contest, Program program, const Entry *entry) {
     const Spread *spreads = entry->spreads;
     if (entry->rep_count == 0) {
         if (entry->broken)
-            printf("  %-12s %d  broke down\n", contest_program_name(program), threads);
+            printf("  %-11s %2d  broke down\n", contest_program_name(program), entry->threads);
         return;
     }
     char range[48];
     snprintf(range, sizeof range, "(%.1f-%.1f)", 1e3 * spreads[MEASURE_WALL].least,
         1e3 * spreads[MEASURE_WALL].most);
-    printf("  %-12s %d %10.1f %-19s %10.1f %8.1f", contest_program_name(program), threads,
+    printf("  %-11s %2d %10.1f %-19s %10.1f %8.1f", contest_program_name(program), entry->threads,
         1e3 * spreads[MEASURE_WALL].median, range, 1e3 * spreads[MEASURE_CPU].median,
         spreads[MEASURE_PEAK].median / 1048576);
     /* Of a small scene the program and the picture would be most of it. */
@@ -55,7 +54,7 @@ static void print_entry(const Contest *contest, Program program, int threads) {
         double rays = entry->camera_rays + entry->shadow_rays;
         printf(" %8.0f %8.2f %8.2f", rate(entry->read_size, entry, MEASURE_READ),
             rate(entry->primitives, entry, MEASURE_BUILD), rate(rays, entry, MEASURE_TRACE));
-        if (program == PROGRAM_GLINT) {
+        if (program == PROGRAM_GLINT && spreads[MEASURE_CAMERA].median > 0) {
             printf(" %8.2f %8.2f", rate(entry->camera_rays, entry, MEASURE_CAMERA),
                 rate(entry->shadow_rays, entry, MEASURE_SHADOW));
         } else {
@@ -92,8 +91,8 @@ void report_scene(const Contest *contest) {
         "shadow", "write");
     printf("  %79s %8s %8s %8s %8s %8s\n", "MB/s", "Mprim/s", "Mray/s", "Mray/s", "Mray/s", "ms");
     for (int program = 0; program < PROGRAM_COUNT; program++) {
-        for (int threads = 1; threads <= THREADS_MAX; threads++) {
-            print_entry(contest, (Program)program, threads);
+        for (int i = 0; i < CREW_MAX; i++) {
+            print_entry(contest, (Program)program, &contest->entries[program][i]);
         }
     }
     for (int rival = 0; rival < RIVAL_COUNT; rival++) {
@@ -152,47 +151,54 @@ void report_summary(const Contest *contests, int count) {
 
 /* ---------------------------------------------------------------- CSV */
 
-static void write_row(const Contest *contest, Program program, int threads, FILE *file) {
-    const Entry *entry = &contest->entries[program][threads - 1];
+static void write_row(
+    const Contest *contest, Program program, const Entry *entry, const char *date, FILE *file) {
     const Spread *spreads = entry->spreads;
     const Sample *sample = &contest->scene.sample;
     if (entry->rep_count == 0) return;
     fprintf(file, "%s,%s,%d,%" PRIu64 ",%d,%d,%d,%.3f,%.3f,%.3f,%.3f,%.3f,%.1f,%.4g",
-        contest->scene.name, contest_program_name(program), threads, contest->surface_count,
+        contest->scene.name, contest_program_name(program), entry->threads, contest->surface_count,
         sample->width, sample->height, entry->rep_count, 1e3 * spreads[MEASURE_WALL].median,
         1e3 * spreads[MEASURE_WALL].least, 1e3 * spreads[MEASURE_WALL].most,
         1e3 * spreads[MEASURE_CPU].median, spreads[MEASURE_PEAK].median / 1048576,
         spreads[MEASURE_PEAK].median / (double)contest->surface_count,
-        ratio(contest, entry, threads));
+        entry->threads <= THREADS_MAX ? ratio(contest, entry, entry->threads) : 1);
+    if (program <= PROGRAM_OTHER_GLINT) {
+        fprintf(file, ",%.1f", spreads[MEASURE_ALLOCATED].median / (double)contest->surface_count);
+    } else {
+        fputs(",", file);
+    }
+    for (int measure = MEASURE_READ; measure <= MEASURE_WRITE; measure++) {
+        if (spreads[measure].median > 0) fprintf(file, ",%.3f", 1e3 * spreads[measure].median);
+        if (!(spreads[measure].median > 0)) fputs(",", file);
+    }
     if (program <= PROGRAM_OTHER_GLINT) {
         double rays = entry->camera_rays + entry->shadow_rays;
-        fprintf(file, ",%.1f,%.3f,%.3f,%.3f,%.3f,%.1f,%.3f,%.3f,%.3f,%.3f\n",
-            spreads[MEASURE_ALLOCATED].median / (double)contest->surface_count,
-            1e3 * spreads[MEASURE_READ].median, 1e3 * spreads[MEASURE_BUILD].median,
-            1e3 * spreads[MEASURE_TRACE].median, 1e3 * spreads[MEASURE_WRITE].median,
-            rate(entry->read_size, entry, MEASURE_READ),
+        fprintf(file, ",%.1f,%.3f,%.3f,%.3f,%.3f,%s\n", rate(entry->read_size, entry, MEASURE_READ),
             rate(entry->primitives, entry, MEASURE_BUILD), rate(rays, entry, MEASURE_TRACE),
             rate(entry->camera_rays, entry, MEASURE_CAMERA),
-            rate(entry->shadow_rays, entry, MEASURE_SHADOW));
+            rate(entry->shadow_rays, entry, MEASURE_SHADOW), date);
     } else {
-        fputs(",,,,,,,,,,\n", file);
+        fprintf(file, ",,,,,,%s\n", date);
     }
 }
 
-void report_csv(const Contest *contests, int count, const EncodeResult *encode, FILE *file) {
+void report_csv(
+    const Contest *contests, int count, const EncodeResult *encode, const char *date, FILE *file) {
     fputs("scene,program,threads,surfaces,width,height,runs,wall_ms,wall_ms_least,wall_ms_most,"
           "cpu_ms,peak_mib,peak_bytes_per_surface,wall_to_glint,allocated_bytes_per_surface,"
           "read_ms,build_ms,trace_ms,write_ms,read_mb_per_second,build_mprim_per_second,"
-          "trace_mray_per_second,camera_mray_per_second,shadow_mray_per_second\n",
+          "trace_mray_per_second,camera_mray_per_second,shadow_mray_per_second,date\n",
         file);
     for (int i = 0; i < count; i++) {
         for (int program = 0; program < PROGRAM_COUNT; program++) {
-            for (int threads = 1; threads <= THREADS_MAX; threads++) {
-                write_row(&contests[i], (Program)program, threads, file);
+            for (int k = 0; k < CREW_MAX; k++) {
+                write_row(
+                    &contests[i], (Program)program, &contests[i].entries[program][k], date, file);
             }
         }
     }
-    fprintf(file, "png-encode,glint,1,,%d,%d,,%.3f,%.3f,%.3f,,,,,,,,,%.3f,,,,,\n", ENCODE_EDGE,
+    fprintf(file, "png-encode,glint,1,,%d,%d,,%.3f,%.3f,%.3f,,,,,,,,,%.3f,,,,,,%s\n", ENCODE_EDGE,
         ENCODE_EDGE, 1e3 * encode->seconds.median, 1e3 * encode->seconds.least,
-        1e3 * encode->seconds.most, 1e3 * encode->seconds.median);
+        1e3 * encode->seconds.most, 1e3 * encode->seconds.median, date);
 }

@@ -14,5 +14,6 @@ void report_scene(const Contest *contest);
 /* One line a scene: the ratios at a glance. */
 void report_summary(const Contest *contests, int count);
 
-/* A row for each scene, program and number of threads, and one for the encoder. */
-void report_csv(const Contest *contests, int count, const EncodeResult *encode, FILE *file);
+/* A row for each scene, program and number of threads, and one for the encoder; date: of today. */
+void report_csv(
+    const Contest *contests, int count, const EncodeResult *encode, const char *date, FILE *file);

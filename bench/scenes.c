@@ -36,8 +36,8 @@ static BenchScene parse_name(const char *name, int edge) {
         }
         if (kind != SAMPLE_TINY && name[length] == '-') {
             scene.sample.count = parse_count(name + length + 1);
-            bool samples = kind >= SAMPLE_LIGHTS && scene.sample.count > 65536;
-            if (scene.sample.count > 0 && !samples) return scene;
+            bool few = kind == SAMPLE_LIGHTS || kind >= SAMPLE_SHADOW; /* lights or samples */
+            if (scene.sample.count > 0 && !(few && scene.sample.count > 65536)) return scene;
         }
     }
     message_fail(
@@ -64,6 +64,8 @@ bool scenes_has(const BenchScene *scene, SceneFormat format) {
     switch (format) {
     case FORMAT_TACHYON: return basic;
     case FORMAT_POVRAY:
+        /* Beyond, it would take longer than all the rest of the bench. */
+        if (scene->sample.count > 2000000) return false;
         return basic || kind == SAMPLE_SOLIDS || kind == SAMPLE_TINY || kind == SAMPLE_LIGHTS;
     default: return true;
     }

@@ -16,11 +16,14 @@ static double millionth(double value) { return floor(value * 1e6 + 0.5) / 1e6; }
 
 /* Quads round the tube; three times as many go round the axis. */
 static uint64_t quads_round(const Sample *sample) {
-    uint64_t count = (uint64_t)(sqrt((double)sample->count / 6) + 0.5);
+    uint64_t triangles = sample->kind == SAMPLE_MIXED ? sample->count / 4 : sample->count;
+    uint64_t count = (uint64_t)(sqrt((double)triangles / 6) + 0.5);
     return count > 3 ? count : 3;
 }
 
-static bool has_mesh(const Sample *sample) { return sample->kind == SAMPLE_TORUS; }
+static bool has_mesh(const Sample *sample) {
+    return sample->kind == SAMPLE_TORUS || sample->kind == SAMPLE_MIXED;
+}
 
 uint64_t sample_vertex_count(const Sample *sample) {
     return has_mesh(sample) ? 3 * quads_round(sample) * quads_round(sample) : 0;

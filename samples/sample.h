@@ -30,9 +30,10 @@ typedef enum SampleKind {
     SAMPLE_FOREST,  /* a tree of 200 solids, drawn count times */
     SAMPLE_GLASS,   /* the spheres, half of them of glass or glazed */
     SAMPLE_LIGHTS,  /* 10,000 solids under count point lights */
+    SAMPLE_MIXED,   /* of the solids, the torus, the helices and the forest, count in all */
     SAMPLE_SHADOW,  /* the tiny scene under a large lamp; count samples a pixel, as from here on */
     SAMPLE_SKY,     /* the same under a sky with a sun */
-    SAMPLE_ROOM,    /* a closed room, path traced */
+    SAMPLE_ROOM,    /* a box after Cornell's, path traced */
     SAMPLE_KIND_COUNT
 } SampleKind;
 
@@ -84,7 +85,7 @@ SampleSurface sample_surface(const Sample *sample, uint64_t index);
 uint64_t sample_group_count(const Sample *sample);
 SampleGroup sample_group(const Sample *sample, uint64_t index);
 
-/* The first group, with its own transform, is drawn once more under each of these. */
+/* The last group, with its own transform, is drawn once more under each of these. */
 uint64_t sample_copy_count(const Sample *sample);
 SampleGroup sample_copy(const Sample *sample, uint64_t index);
 

@@ -14,6 +14,7 @@ static const char *const kind_names[SAMPLE_KIND_COUNT] = {
     [SAMPLE_FOREST] = "forest",
     [SAMPLE_GLASS] = "glass",
     [SAMPLE_LIGHTS] = "lights",
+    [SAMPLE_MIXED] = "mixed",
     [SAMPLE_SHADOW] = "shadow",
     [SAMPLE_SKY] = "sky",
     [SAMPLE_ROOM] = "room",

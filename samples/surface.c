@@ -185,6 +185,37 @@ static SampleGroup tree_copy(const Sample *sample, uint64_t index) {
     return copy;
 }
 
+/* ---------------------------------------------------------------- mixed */
+
+/* First the mesh, which is a quarter, then half of the solids, an eighth of helices, and the tree,
+ * copies of which are the rest. */
+static Sample mixed_part(const Sample *sample, SampleKind kind) {
+    uint64_t count = sample->count;
+    Sample part = {kind, count / 2, sample->width, sample->height};
+    if (kind == SAMPLE_HELICES) part.count = (count / 8 / HELIX_SIZE + 1) * HELIX_SIZE;
+    if (kind == SAMPLE_FOREST) part.count = count / 8 / TREE_SIZE + 2;
+    return part;
+}
+
+static SampleSurface mixed_surface(const Sample *sample, uint64_t index) {
+    Sample solids = mixed_part(sample, SAMPLE_SOLIDS);
+    Sample helices = mixed_part(sample, SAMPLE_HELICES);
+    if (index-- == 0) {
+        return (SampleSurface){glint_surface_desc_default(GLINT_SURFACE_MESH), 2, -1};
+    }
+    if (index < solids.count) return slab_surface(SAMPLE_SOLIDS, solids.count, index);
+    index -= solids.count;
+    if (index < helices.count) return helix_surface(index);
+    SampleSurface surface = tree_surface(index - helices.count);
+    surface.group_index = (int64_t)sample_group_count(&helices);
+    return surface;
+}
+
+static uint64_t mixed_surface_count(const Sample *sample) {
+    return 2 + mixed_part(sample, SAMPLE_SOLIDS).count + mixed_part(sample, SAMPLE_HELICES).count +
+           TREE_SIZE;
+}
+
 /* ---------------------------------------------------------------- tiny and room */
 
 typedef struct Solid {
@@ -262,6 +293,7 @@ uint64_t sample_surface_count(const Sample *sample) {
     case SAMPLE_TORUS: return 2;
     case SAMPLE_FOREST: return 1 + TREE_SIZE;
     case SAMPLE_LIGHTS: return 1 + 10000;
+    case SAMPLE_MIXED: return mixed_surface_count(sample);
     case SAMPLE_ROOM: return 1 + ROOM_SIZE;
     default: return 1 + sample->count;
     }
@@ -269,7 +301,8 @@ uint64_t sample_surface_count(const Sample *sample) {
 
 uint64_t sample_drawn_count(const Sample *sample) {
     uint64_t count = sample_surface_count(sample) + TREE_SIZE * sample_copy_count(sample);
-    return sample->kind == SAMPLE_TORUS ? count - 1 + sample_triangle_count(sample) : count;
+    uint64_t triangle_count = sample_triangle_count(sample);
+    return triangle_count > 0 ? count - 1 + triangle_count : count;
 }
 
 SampleSurface sample_surface(const Sample *sample, uint64_t index) {
@@ -284,30 +317,51 @@ SampleSurface sample_surface(const Sample *sample, uint64_t index) {
         return (SampleSurface){glint_surface_desc_default(GLINT_SURFACE_MESH), 2, -1};
     case SAMPLE_FOREST: return tree_surface(index);
     case SAMPLE_LIGHTS: return slab_surface(SAMPLE_SOLIDS, 10000, index);
+    case SAMPLE_MIXED: return mixed_surface(sample, index);
     case SAMPLE_ROOM: return room_surface(index);
     default: return slab_surface(sample->kind, sample->count, index);
     }
 }
 
 uint64_t sample_group_count(const Sample *sample) {
+    Sample part;
     switch (sample->kind) {
     case SAMPLE_HELICES: return (sample->count + HELIX_SIZE - 1) / HELIX_SIZE;
     case SAMPLE_FOREST: return 1;
+    case SAMPLE_MIXED:
+        part = mixed_part(sample, SAMPLE_HELICES);
+        return part.count / HELIX_SIZE + 1;
     case SAMPLE_ROOM: return ROOM_SIZE - WALL_COUNT;
     default: return 0;
     }
 }
 
-SampleGroup sample_group(const Sample *sample, uint64_t index) {
-    if (sample->kind == SAMPLE_HELICES) return helix_group(sample, index);
-    if (sample->kind == SAMPLE_ROOM) return room_groups[index];
-    double height = tree_height(sample);
+static SampleGroup tree_group(const Sample *sample, double tallest) {
+    double height = fmin(tree_height(sample), tallest);
     return (SampleGroup){{0, 0, 0}, {0, 0, 0}, {height, height, height}};
+}
+
+SampleGroup sample_group(const Sample *sample, uint64_t index) {
+    Sample helices = mixed_part(sample, SAMPLE_HELICES);
+    Sample forest = mixed_part(sample, SAMPLE_FOREST);
+    switch (sample->kind) {
+    case SAMPLE_HELICES: return helix_group(sample, index);
+    case SAMPLE_ROOM: return room_groups[index];
+    case SAMPLE_MIXED:
+        return index < sample_group_count(&helices) ? helix_group(&helices, index)
+                                                    : tree_group(&forest, 2);
+    default: return tree_group(sample, INFINITY);
+    }
 }
 
 /* The group itself is the first of the forest's trees. */
 uint64_t sample_copy_count(const Sample *sample) {
+    Sample forest = mixed_part(sample, SAMPLE_FOREST);
+    if (sample->kind == SAMPLE_MIXED) return forest.count - 1;
     return sample->kind == SAMPLE_FOREST ? sample->count - 1 : 0;
 }
 
-SampleGroup sample_copy(const Sample *sample, uint64_t index) { return tree_copy(sample, index); }
+SampleGroup sample_copy(const Sample *sample, uint64_t index) {
+    Sample forest = mixed_part(sample, SAMPLE_FOREST);
+    return tree_copy(sample->kind == SAMPLE_MIXED ? &forest : sample, index);
+}

@@ -113,7 +113,7 @@ static void write_transform(const SampleGroup *group, FILE *file) {
 void sample_write_xml(const Sample *sample, const char *beside, FILE *file) {
     write_head(sample, beside, file);
     int64_t group_index = -1;
-    bool copied = sample_copy_count(sample) > 0;
+    int64_t copied = sample_copy_count(sample) > 0 ? (int64_t)sample_group_count(sample) - 1 : -1;
     uint64_t count = sample_surface_count(sample);
     for (uint64_t i = 0; i < count; i++) {
         SampleSurface surface = sample_surface(sample, i);
@@ -121,7 +121,8 @@ void sample_write_xml(const Sample *sample, const char *beside, FILE *file) {
             if (group_index >= 0) fputs("</surface>\n", file);
             group_index = surface.group_index;
             SampleGroup group = sample_group(sample, (uint64_t)group_index);
-            fprintf(file, "<surface type=\"Group\"%s>", copied ? " name=\"tree\"" : "");
+            fprintf(
+                file, "<surface type=\"Group\"%s>", group_index == copied ? " name=\"tree\"" : "");
             write_transform(&group, file);
             fputs("\n", file);
         }

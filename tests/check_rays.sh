@@ -39,16 +39,28 @@ has_rates() { # has_rates COLUMN COUNT
 }
 
 check "--quick is measured, and hits agree" run 0 --quick --reps 1 --csv csv
-check "rates of glint" has_rates 4 6
+check "rates of glint" has_rates 4 9
 if grep -q 'not installed' out; then
     skipped=$((skipped + 1))
     echo "skip rays: no Embree"
 else
     check "rates of Embree" has_rates 6 6
 fi
-check "the CSV has them all" test "$(grep -c '^[st].*,\(camera\|shadow\|bounce\),' csv)" -eq 6
+check "the CSV has them all" test "$(grep -c '^[mst].*,\(camera\|shadow\|bounce\),' csv)" -eq 9
 check "every line of it has all fields" \
-    test "$(grep -v '^#' csv | awk -F, '{ print NF }' | sort -u)" -eq 17
+    test "$(grep -v '^#' csv | awk -F, '{ print NF }' | sort -u)" -eq 21
+# Together 1024 rays ask less of the tree than one by one, and no ray gets away without a question.
+# shellcheck disable=SC2016 # a program of awk
+check "nodes, leaves and shapes are counted" awk -F, '
+    $3 == "camera" { good += $18 > 0 && $18 < 0.5 && $19 > 0 && $19 < 0.5 && $20 > 0.5 }
+    $3 == "bounce" { good += $18 > 1 && $19 > 0.5 && $20 > 0.3 }
+    END { exit good != 6 }' csv
+
+mkdir results
+check "numbers go to the folder" run 0 --quick --reps 1 --scenes spheres-1k --results results
+check "and those of another scene" run 0 --quick --reps 1 --scenes torus-1k --results results
+check "which leave the first" test "$(grep -c '^[st].*,\(camera\|shadow\|bounce\),' \
+    results/*-rays.csv)" -eq 6
 
 cat >scene.xml <<'XML'
 <scene dialect="glint">

@@ -51,7 +51,8 @@ static bool draw(const Sample *sample, const char *path, float *pixels) {
 }
 
 static void samples_alike(void) {
-    static const uint64_t counts[SAMPLE_KIND_COUNT] = {100, 100, 200, 1, 2000, 50, 40, 7, 4, 4, 4};
+    static const uint64_t counts[SAMPLE_KIND_COUNT] = {
+        100, 100, 200, 1, 2000, 50, 40, 7, 1000, 4, 4, 4};
     static float built[NUMBER_COUNT], loaded[NUMBER_COUNT];
     for (int kind = 0; kind < SAMPLE_KIND_COUNT; kind++) {
         Sample sample = {(SampleKind)kind, counts[kind], EDGE, EDGE};

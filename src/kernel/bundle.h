@@ -363,6 +363,7 @@ static inline void tile_flush(Tile *tile) {
             continue;
         }
         unsigned rays = test->rays & tile->alive[test->packet];
+        COUNT(shapes, __builtin_popcount(rays));
         if (rays != 0) changed |= tile_test(tile, test->shape, (int)test->packet, rays);
     }
     tile_count(tile, tile->test_count);
@@ -406,6 +407,7 @@ static inline void tile_block(Tile *tile, uint32_t child) {
     Rectangles rectangles;
     const GiShapeRef *shapes;
     unsigned bits;
+    COUNT(leaves, 1);
     if (gi_child_kind(child) == GI_CHILD_SPHERES) {
         bits = tile_spheres(&tile->frustum, &tree->sphere_blocks[index], &rectangles);
         shapes = tree->sphere_blocks[index].shape;
@@ -432,6 +434,7 @@ static inline void tile_leaf(Tile *tile, uint32_t child) {
     Rectangles rectangles;
     Edges edges;
     uint32_t first = gi_child_first(child);
+    COUNT(leaves, 1);
     unsigned bits = tile_triangles(&tile->frustum, &tile->shapes->triangles, first,
         gi_child_count(child), &rectangles, &edges);
     Pairs pairs;
@@ -492,6 +495,7 @@ static inline void tile_walk(Tile *tile) {
             const GiNode *node = &tree->nodes[top.child];
             float enter[8];
             unsigned bits = tile_node(&tile->frustum, node, enter);
+            COUNT(nodes, 1);
             count = push_children(tree, tile->shapes, stack, count, node->child, bits, enter);
             break;
         }

@@ -5,6 +5,7 @@
 #include "kernel/kernel.h"
 
 #include "shape/hit.h"
+#include "kernel/count.h"
 #include "kernel/wide.h"
 
 #include <string.h>

@@ -270,6 +270,7 @@ static inline bool line_test(const Line *line, GiShapeRef ref, bool any, GiTrace
     }
     const GiTraceRay *given = line->given;
     if (ref.bits == given->skip && line->instance == given->skip_instance) return false;
+    COUNT(shapes, 1);
     if (!gi_hit_shape(line->shapes, ref, &line->ray, given->t_min, given->t_max, &t)) return false;
     return keep_hit(line->shapes, (GiTraceHit){t, ref, line->instance}, best);
 }
@@ -313,9 +314,11 @@ static inline bool line_trace(const GiTree *tree, const GiShapes *shapes, uint32
         if (kind == GI_CHILD_NODE) {
             const GiNode *node = &tree->nodes[index];
             bits = line_boxes(&line, node->low, node->high, from, to, enter);
+            COUNT(nodes, 1);
             count = push_children(tree, shapes, stack, count, node->child, bits, enter);
             continue;
         }
+        COUNT(leaves, 1);
         if (kind == GI_CHILD_SPHERES) {
             const GiSphereBlock *block = &tree->sphere_blocks[index];
             bits = line_spheres(&line, block, from, to);
