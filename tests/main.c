@@ -27,6 +27,7 @@
     X(scan) \
     X(hit) \
     X(shape) \
+    X(accel) \
     X(kernel) \
     X(stream) \
     X(image) \

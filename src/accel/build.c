@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Top down. A node's items are split at the best of 3 x 15 planes (fewer for few items) between 16
- * bins of their centres; of a large range a sample is binned, and the sorting to both sides finds
- * the exact boxes. A range knows its bounds when it is made, so that each level of the tree passes
- * over the items twice, over many items once. Large subtrees become tasks for other workers; below
+ * bins of their centres. A range knows its bounds when it is made: the boxes of both sides come
+ * from the bins, the bounds of their centres from the sorting to the sides, so that a level of the
+ * tree takes two passes over the items. Large subtrees become tasks for other workers; below
  * TASK_SIZE a worker finishes alone with a stack of its own, always putting off the larger half, so
  * that the stack stays short. */
 #include "accel/build.h"
@@ -18,8 +18,7 @@ enum {
     BIN_COUNT = 16,
     FEW_BINS = 8, /* for few items the bins cost more than the items do */
     FEW_ITEMS = 64,
-    SAMPLE_SIZE = 1024, /* about so many of a larger range are binned */
-    BLOCK_SIZE = 64,    /* of partition */
+    BLOCK_SIZE = 64, /* of partition */
     TASK_SIZE = 4096,
     SAH_DEPTH_LIMIT = 60, /* deeper, halves are of equal size: the depth stays below 96 */
     STACK_SIZE = 64
@@ -121,22 +120,32 @@ static inline GiFour place_of(const Binning *binning, GiFour center) {
     return gi_four_multiply(gi_four_sub(center, binning->low), binning->scale);
 }
 
-static void fill_bins(
-    const GiBuildItem *items, size_t count, size_t step, const Binning *binning, Bins *bins) {
+static inline void bin_item(const GiBuildItem *item, const Binning *binning, Bins *bins) {
+    int32_t bin[4];
+    gi_four_to_int(place_of(binning, center_of(item)), bin);
+    GiFour low = gi_four_load(item->low), high = gi_four_load(item->high);
+    for (int axis = 0; axis < 3; axis++) {
+        grow(&bins->bounds[bin[axis]][axis], low, high);
+        bins->counts[bin[axis]][axis]++;
+    }
+}
+
+/* From four places by turns: neighbours in a file are often neighbours in space, and what goes to
+ * the bin of the item before has to wait for it. */
+static void fill_bins(const GiBuildItem *items, size_t count, const Binning *binning, Bins *bins) {
     const Bounds empty = empty_bounds();
     for (int i = 0; i < binning->count; i++) {
         for (int axis = 0; axis < 3; axis++) bins->bounds[i][axis] = empty;
         memset(bins->counts[i], 0, sizeof bins->counts[i]);
     }
-    for (size_t i = 0; i < count; i += step) {
-        int32_t bin[4];
-        gi_four_to_int(place_of(binning, center_of(&items[i])), bin);
-        GiFour low = gi_four_load(items[i].low), high = gi_four_load(items[i].high);
-        for (int axis = 0; axis < 3; axis++) {
-            grow(&bins->bounds[bin[axis]][axis], low, high);
-            bins->counts[bin[axis]][axis]++;
-        }
+    size_t quarter = count / 4;
+    for (size_t i = 0; i < quarter; i++) {
+        bin_item(&items[i], binning, bins);
+        bin_item(&items[i + quarter], binning, bins);
+        bin_item(&items[i + 2 * quarter], binning, bins);
+        bin_item(&items[i + 3 * quarter], binning, bins);
     }
+    for (size_t i = 4 * quarter; i < count; i++) bin_item(&items[i], binning, bins);
 }
 
 /* Half the surfaces of three boxes, as gi_build_area has it. */
@@ -206,9 +215,10 @@ static Bounds join_bins(const Bins *bins, int axis, int begin, int end) {
     return bounds;
 }
 
-static inline void grow_unless(bool hidden, Bounds *bounds, GiFour low, GiFour high) {
-    bounds->low = gi_four_min(gi_four_hide(low, hidden), bounds->low);
-    bounds->high = gi_four_max(gi_four_hide(high, hidden), bounds->high);
+static inline void grow_unless(bool hidden, Bounds *bounds, GiFour point) {
+    GiFour seen = gi_four_hide(point, hidden);
+    bounds->low = gi_four_min(seen, bounds->low);
+    bounds->high = gi_four_max(seen, bounds->high);
 }
 
 /* Sorts items to two sides and gathers the bounds of both. Which side an item goes to cannot be
@@ -217,26 +227,21 @@ static inline void grow_unless(bool hidden, Bounds *bounds, GiFour low, GiFour h
 typedef struct Sorting {
     Binning binning;
     GiFour limit; /* below it on the split's axis: left */
-    Bounds left_boxes, left_centers, right_boxes, right_centers;
+    Bounds left_centers, right_centers;
 } Sorting;
 
-static inline bool sort_item(Sorting *sorting, const GiBuildItem *item, bool boxes_too) {
-    GiFour low = gi_four_load(item->low), high = gi_four_load(item->high);
-    GiFour center = gi_four_add(low, high);
+static inline bool sort_item(Sorting *sorting, const GiBuildItem *item) {
+    GiFour center = center_of(item);
     bool goes_left = gi_four_any_less(place_of(&sorting->binning, center), sorting->limit);
-    grow_unless(!goes_left, &sorting->left_centers, center, center);
-    grow_unless(goes_left, &sorting->right_centers, center, center);
-    if (boxes_too) {
-        grow_unless(!goes_left, &sorting->left_boxes, low, high);
-        grow_unless(goes_left, &sorting->right_boxes, low, high);
-    }
+    grow_unless(!goes_left, &sorting->left_centers, center);
+    grow_unless(goes_left, &sorting->right_centers, center);
     return goes_left;
 }
 
 /* Takes blocks from both ends, notes who stands on the wrong side, and swaps those (Edelkamp and
  * Weiss 2016). So what need not move is not written, which counts where a range is larger than the
  * caches. */
-static inline size_t partition(GiBuildItem *items, size_t count, Sorting *shared, bool boxes_too) {
+static inline size_t partition(GiBuildItem *items, size_t count, Sorting *shared) {
     Sorting sorting = *shared;
     uint8_t wrong_left[BLOCK_SIZE], wrong_right[BLOCK_SIZE];
     size_t begin = 0, end = count;
@@ -246,14 +251,14 @@ static inline size_t partition(GiBuildItem *items, size_t count, Sorting *shared
             left_first = 0;
             for (int i = 0; i < BLOCK_SIZE; i++) {
                 wrong_left[left_count] = (uint8_t)i;
-                left_count += !sort_item(&sorting, &items[begin + (size_t)i], boxes_too);
+                left_count += !sort_item(&sorting, &items[begin + (size_t)i]);
             }
         }
         if (right_count == 0) {
             right_first = 0;
             for (int i = 0; i < BLOCK_SIZE; i++) {
                 wrong_right[right_count] = (uint8_t)i;
-                right_count += sort_item(&sorting, &items[end - 1 - (size_t)i], boxes_too);
+                right_count += sort_item(&sorting, &items[end - 1 - (size_t)i]);
             }
         }
         int swaps = left_count < right_count ? left_count : right_count;
@@ -278,7 +283,7 @@ static inline size_t partition(GiBuildItem *items, size_t count, Sorting *shared
         GiBuildItem item = items[i];
         items[i] = items[left];
         items[left] = item;
-        left += sort_item(&sorting, &item, boxes_too);
+        left += sort_item(&sorting, &item);
     }
     *shared = sorting;
     return left;
@@ -297,24 +302,15 @@ static size_t divide(GiBuildItem *items, const Range *range, Range *left, Range 
     if (range->depth >= SAH_DEPTH_LIMIT) return halve(items, count, left, right);
     Binning binning = binning_of(&range->centers, count);
     Bins bins;
-    size_t step = count / SAMPLE_SIZE | 1;
-    fill_bins(items, count, step, &binning, &bins);
+    fill_bins(items, count, &binning, &bins);
     Split split = find_split(&bins, binning.count);
     if (split.axis < 0) return halve(items, count, left, right);
+    left->bounds = join_bins(&bins, split.axis, 0, split.bin);
+    right->bounds = join_bins(&bins, split.axis, split.bin, binning.count);
     float limits[4] = {-1, -1, -1, -1};
     limits[split.axis] = (float)split.bin;
-    Sorting sorting = {binning, gi_four_load(limits), empty_bounds(), empty_bounds(),
-        empty_bounds(), empty_bounds()};
-    size_t middle;
-    if (step > 1) {
-        middle = partition(items, count, &sorting, true);
-        left->bounds = sorting.left_boxes;
-        right->bounds = sorting.right_boxes;
-    } else {
-        middle = partition(items, count, &sorting, false);
-        left->bounds = join_bins(&bins, split.axis, 0, split.bin);
-        right->bounds = join_bins(&bins, split.axis, split.bin, binning.count);
-    }
+    Sorting sorting = {binning, gi_four_load(limits), empty_bounds(), empty_bounds()};
+    size_t middle = partition(items, count, &sorting);
     left->centers = sorting.left_centers;
     right->centers = sorting.right_centers;
     return middle;
