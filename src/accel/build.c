@@ -388,6 +388,13 @@ GlintStatus gi_build(GiMemory *memory, GiPool *pool, GiBuildItem *items, size_t 
     GlintStatus status = gi_tasks_run(pool, memory, &all, sizeof all, run_task, &build);
     if (status == GLINT_OK && atomic_load(&build.stop)) status = GLINT_CANCELLED;
     tree->node_count = atomic_load(&build.node_count);
+    /* Leaves hold seven items, but might have held one each. */
+    GiBuildNode *nodes = gi_memory_resize(
+        memory, tree->nodes, tree->node_capacity * sizeof *nodes, tree->node_count * sizeof *nodes);
+    if (nodes != NULL) {
+        tree->nodes = nodes;
+        tree->node_capacity = tree->node_count;
+    }
     return status;
 }
 
