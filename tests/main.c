@@ -28,6 +28,7 @@
     X(scan) \
     X(hit) \
     X(shape) \
+    X(accel) \
     X(kernel) \
     X(gate) \
     X(leak) \

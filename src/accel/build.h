@@ -5,6 +5,7 @@
 
 #include "sched/pool.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -22,7 +23,7 @@ static inline uint32_t gi_build_id(const GiBuildItem *item) {
 
 static inline void gi_build_set_id(GiBuildItem *item, uint32_t id) {
     memcpy(&item->low[3], &id, sizeof id);
-    item->high[3] = 0;
+    item->high[3] = NAN;
 }
 
 enum { GI_BUILD_LEAF_SIZE = 8 };

@@ -131,28 +131,33 @@ static void survey_shapes(void *context, size_t begin, size_t end, int worker) {
     prepare->surveys[worker] = survey;
 }
 
-/* Boxes in kernel space, grown by the error bound (layout.h). What has no finite box begins with
- * not-a-number. */
+typedef struct KernelBox {
+    float low[3], high[3];
+} KernelBox;
+
+/* A shape's box in kernel space, grown by the error bound (layout.h). What has no finite box begins
+ * with not-a-number. */
+static KernelBox kernel_box(const GiShapes *shapes, GiShapeRef ref, GiVec center, double scale) {
+    GiBox box = gi_shape_bounds(shapes, ref, GI_SHAPE_NONE);
+    double growth = GI_TREE_GROWTH * largest_component(&box, center) + GI_TREE_GROWTH_LEAST / scale;
+    const GiVec reach = {growth, growth, growth};
+    GiVec low = gi_sub(gi_sub(box.low, center), reach);
+    GiVec high = gi_add(gi_sub(box.high, center), reach);
+    return (KernelBox){{box_is_finite(&box) ? (float)(low.x * scale) : NAN, (float)(low.y * scale),
+                           (float)(low.z * scale)},
+        {(float)(high.x * scale), (float)(high.y * scale), (float)(high.z * scale)}};
+}
+
 static void prepare_items(void *context, size_t begin, size_t end, int worker) {
     (void)worker;
     const Prepare *prepare = context;
     Cursor cursor = cursor_at(prepare->shapes, prepare->input, begin);
     for (size_t i = begin; i < end; i++) {
         GiShapeRef ref = cursor_next(&cursor);
-        GiBox box = gi_shape_bounds(prepare->shapes, ref, GI_SHAPE_NONE);
-        double growth = GI_TREE_GROWTH * largest_component(&box, prepare->center) +
-                        GI_TREE_GROWTH_LEAST / prepare->scale;
-        const GiVec reach = {growth, growth, growth};
-        GiVec low = gi_sub(gi_sub(box.low, prepare->center), reach);
-        GiVec high = gi_add(gi_sub(box.high, prepare->center), reach);
+        KernelBox box = kernel_box(prepare->shapes, ref, prepare->center, prepare->scale);
         GiBuildItem *item = &prepare->items[i];
-        double scale = prepare->scale;
-        item->low[0] = box_is_finite(&box) ? (float)(low.x * scale) : NAN;
-        item->low[1] = (float)(low.y * scale);
-        item->low[2] = (float)(low.z * scale);
-        item->high[0] = (float)(high.x * scale);
-        item->high[1] = (float)(high.y * scale);
-        item->high[2] = (float)(high.z * scale);
+        memcpy(item->low, box.low, sizeof box.low);
+        memcpy(item->high, box.high, sizeof box.high);
         gi_build_set_id(item, ref.bits);
     }
 }
@@ -162,7 +167,8 @@ static void prepare_items(void *context, size_t begin, size_t end, int worker) {
 typedef struct Layout {
     const GiShapes *shapes;
     const GiTreeInput *input;
-    const GiBuildItem *items;
+    const GiShapeRef *refs;   /* in the order of the leaves */
+    const GiBuildItem *items; /* the same with their boxes, or null */
     const GiBuildNode *nodes;
     GiTreeStore *store;
     double scale;
@@ -171,7 +177,18 @@ typedef struct Layout {
 } Layout;
 
 static GiShapeRef item_ref(const Layout *layout, const GiBuildNode *leaf, uint32_t i) {
-    return (GiShapeRef){gi_build_id(&layout->items[leaf->first + i])};
+    return layout->refs[leaf->first + i];
+}
+
+static KernelBox item_box(const Layout *layout, const GiBuildNode *leaf, uint32_t i) {
+    KernelBox box;
+    if (layout->items == NULL) {
+        return kernel_box(layout->shapes, item_ref(layout, leaf, i), layout->center, layout->scale);
+    }
+    const GiBuildItem *item = &layout->items[leaf->first + i];
+    memcpy(box.low, item->low, sizeof box.low);
+    memcpy(box.high, item->high, sizeof box.high);
+    return box;
 }
 
 /* Spheres, triangles of one mesh, or boxes of anything. */
@@ -236,14 +253,20 @@ static uint32_t emit_boxes(Layout *layout, const GiBuildNode *leaf) {
     GiTree *tree = &layout->store->tree;
     GiBoxBlock *block = &layout->store->box_blocks[tree->box_block_count];
     for (uint32_t i = 0; i < GI_TREE_WIDTH; i++) {
-        const GiBuildItem *item = i < leaf->count ? &layout->items[leaf->first + i] : NULL;
-        for (int axis = 0; axis < 3; axis++) {
-            block->low[axis][i] = item != NULL ? item->low[axis] : INFINITY;
-            block->high[axis][i] = item != NULL ? item->high[axis] : -INFINITY;
+        if (i >= leaf->count) {
+            for (int axis = 0; axis < 3; axis++) {
+                block->low[axis][i] = INFINITY;
+                block->high[axis][i] = -INFINITY;
+            }
+            block->shape[i].bits = GI_SHAPE_NONE;
+            continue;
         }
-        block->shape[i].bits = GI_SHAPE_NONE;
-        if (item == NULL) continue;
         GiShapeRef ref = item_ref(layout, leaf, i);
+        KernelBox box = item_box(layout, leaf, i);
+        for (int axis = 0; axis < 3; axis++) {
+            block->low[axis][i] = box.low[axis];
+            block->high[axis][i] = box.high[axis];
+        }
         bool triangle = gi_shape_kind(ref) == GI_SHAPE_TRIANGLE;
         block->shape[i] = triangle ? place_triangle(layout, ref) : ref;
     }
@@ -254,7 +277,7 @@ static uint32_t emit_boxes(Layout *layout, const GiBuildNode *leaf) {
  * memory more than for all else. */
 static void fetch_leaf(const Layout *layout, const GiBuildNode *node) {
     for (uint32_t i = 0; i < node->count; i++) {
-        GiShapeRef ref = {gi_build_id(&layout->items[node->first + i])};
+        GiShapeRef ref = item_ref(layout, node, i);
         if (gi_shape_kind(ref) != GI_SHAPE_SPHERE) continue;
         gi_prefetch(&layout->shapes->spheres[gi_shape_index(ref)]);
     }
@@ -316,11 +339,13 @@ static uint32_t emit(Layout *layout, uint32_t index) {
 }
 
 static GlintStatus lay_out(GiMemory *memory, const GiShapes *shapes, const GiTreeInput *input,
-    const GiBuildItem *items, const GiBuildTree *binary, GiTreeStore *store) {
+    const GiShapeRef *refs, const GiBuildItem *items, const GiBuildTree *binary,
+    GiTreeStore *store) {
     const GiBuildNode *root = &binary->nodes[0];
     Layout layout = {
         .shapes = shapes,
         .input = input,
+        .refs = refs,
         .items = items,
         .nodes = binary->nodes,
         .store = store,
@@ -403,6 +428,19 @@ static void drop_items(GiBuildItem *items, size_t count) {
     }
 }
 
+/* The items' ids, in the order of the leaves; *boxes_count of them will lie in blocks of boxes. */
+static GiShapeRef *leaf_order(
+    GiMemory *memory, const GiBuildItem *items, size_t count, size_t *boxes_count) {
+    GiShapeRef *refs = gi_memory_allocate(memory, count * sizeof *refs);
+    *boxes_count = 0;
+    for (size_t i = 0; i < count && refs != NULL; i++) {
+        refs[i].bits = gi_build_id(&items[i]);
+        GiShapeKind kind = gi_shape_kind(refs[i]);
+        *boxes_count += kind != GI_SHAPE_SPHERE && kind != GI_SHAPE_TRIANGLE;
+    }
+    return refs;
+}
+
 GlintStatus gi_tree_build(GiMemory *memory, GiPool *pool, const GiShapes *shapes,
     const GiTreeInput *input, const GlintMonitor *monitor, GiTreeStore *store) {
     size_t count = input_count(shapes, input), item_count = 0;
@@ -421,11 +459,23 @@ GlintStatus gi_tree_build(GiMemory *memory, GiPool *pool, const GiShapes *shapes
         if (item_count < count) drop_items(prepare.items, count);
         status = gi_build(memory, pool, prepare.items, item_count, monitor, &binary);
     }
+    GiShapeRef *refs = NULL;
+    size_t boxes_count = 0;
     if (status == GLINT_OK && item_count > 0) {
-        status = lay_out(memory, shapes, input, prepare.items, &binary, store);
+        refs = leaf_order(memory, prepare.items, item_count, &boxes_count);
+        if (refs == NULL) status = GLINT_ERROR_MEMORY;
     }
-    gi_build_free(memory, &binary);
+    /* Where few boxes are needed again, all go before the wide nodes ask for memory. */
+    if (boxes_count <= item_count / 2) {
+        gi_memory_free_lines(memory, prepare.items, count, sizeof *prepare.items);
+        prepare.items = NULL;
+    }
+    if (refs != NULL) {
+        status = lay_out(memory, shapes, input, refs, prepare.items, &binary, store);
+    }
     gi_memory_free_lines(memory, prepare.items, count, sizeof *prepare.items);
+    gi_memory_free(memory, refs, item_count * sizeof *refs);
+    gi_build_free(memory, &binary);
     if (status != GLINT_OK) {
         gi_tree_free(memory, store);
         return status;

@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "render/reorder.h"
 
+#include "base/prefetch.h"
+
 #include <string.h>
+
+enum { SHAPE_WIDTH = 8 /* doubles in the largest shape, at least */, WALKERS = 16 };
+#define SETTLED GI_SHAPE_NONE
 
 /* Every ref of the tree's blocks that names a shape of this kind directly. */
 typedef void (*VisitFn)(void *context, GiShapeRef *ref);
@@ -35,48 +40,97 @@ static void take_place(void *context, GiShapeRef *ref) {
     *ref = gi_shape_ref(order->kind, *place);
 }
 
-/* data: the array of one kind, of `size` bytes a shape; its capacity is capacity. */
+/* Shapes on the way to their places. */
+typedef struct Move {
+    double *shapes; /* each of so many doubles */
+    size_t width, count;
+    GiShapeInfo *infos;
+    uint32_t *place; /* of each; SETTLED once it has left */
+    uint32_t next;   /* all before it have left */
+} Move;
+
+typedef struct Walker {
+    double shape[SHAPE_WIDTH];
+    GiShapeInfo info;
+    uint32_t to;
+} Walker;
+
+/* Lifts the next shape that has not left; false when there is none. */
+static bool lift(Move *move, Walker *walker) {
+    while (move->next < move->count && move->place[move->next] == SETTLED) move->next++;
+    if (move->next == move->count) return false;
+    uint32_t from = move->next++;
+    memcpy(walker->shape, move->shapes + from * move->width, move->width * sizeof(double));
+    walker->info = move->infos[from];
+    walker->to = move->place[from];
+    move->place[from] = SETTLED;
+    return true;
+}
+
+/* Puts down what is carried and takes what was there. False when that had left before. */
+static bool trade(Move *move, Walker *walker) {
+    uint32_t at = walker->to;
+    double *there = move->shapes + at * move->width;
+    for (size_t k = 0; k < move->width; k++) {
+        double swap = there[k];
+        there[k] = walker->shape[k];
+        walker->shape[k] = swap;
+    }
+    GiShapeInfo swap = move->infos[at];
+    move->infos[at] = walker->info;
+    walker->info = swap;
+    walker->to = move->place[at];
+    move->place[at] = SETTLED;
+    return walker->to != SETTLED;
+}
+
+/* Cycle by cycle, so that there is never a second copy of the shapes. Each step goes to a place
+ * that only the one before it tells, and would wait for memory: hence many walkers by turns, each
+ * of which walks until it comes to where another has set out. */
+static void move_shapes(Move *move) {
+    Walker walkers[WALKERS];
+    int count = 0;
+    while (count < WALKERS && lift(move, &walkers[count])) count++;
+    while (count > 0) {
+        for (int i = 0; i < count; i++) {
+            Walker *walker = &walkers[i];
+            if (!trade(move, walker) && !lift(move, walker)) {
+                *walker = walkers[--count];
+                i--;
+                continue;
+            }
+            gi_prefetch(&move->place[walker->to]);
+            gi_prefetch(&move->shapes[walker->to * move->width]);
+            gi_prefetch(&move->infos[walker->to]);
+        }
+    }
+}
+
 static void reorder_kind(
-    GiScene *scene, GiWorld *world, GiShapeKind kind, void **data, size_t capacity, size_t size) {
-    GiMemory *memory = scene->memory;
+    GiScene *scene, GiWorld *world, GiShapeKind kind, double *shapes, size_t width) {
     GiShapeInfos *infos = &scene->info[kind];
     size_t count = infos->count;
     if (count < 2) return;
-    /* All memory first, so that a failure leaves everything as it was. */
     Order order = {.kind = kind};
     size_t place_size = count * sizeof *order.place;
-    order.place = gi_memory_allocate(memory, place_size);
+    order.place = gi_memory_allocate(scene->memory, place_size);
     if (order.place == NULL) return;
     memset(order.place, 0xff, place_size);
-    void *shapes = gi_memory_allocate(memory, capacity * size);
-    GiShapeInfo *info = gi_memory_allocate(memory, infos->capacity * sizeof *info);
-    if (shapes != NULL && info != NULL) {
-        visit_blocks(&world->store, kind, take_place, &order);
-        for (size_t i = 0; i < world->inner_count; i++) {
-            visit_blocks(&world->inner[i], kind, take_place, &order);
-        }
-        for (size_t i = 0; i < count; i++) {
-            if (order.place[i] == GI_SHAPE_NONE) order.place[i] = order.next++;
-        }
-        for (size_t i = 0; i < count; i++) {
-            memcpy((char *)shapes + order.place[i] * size, (const char *)*data + i * size, size);
-            info[order.place[i]] = infos->data[i];
-        }
-        for (size_t i = 0; i < world->spread.placements.count; i++) {
-            GiShapeRef *ref = &world->spread.placements.data[i].shape;
-            if (gi_shape_kind(*ref) != kind) continue;
-            *ref = gi_shape_ref(kind, order.place[gi_shape_index(*ref)]);
-        }
-        void *old = *data;
-        *data = shapes;
-        shapes = old;
-        GiShapeInfo *old_info = infos->data;
-        infos->data = info;
-        info = old_info;
+    visit_blocks(&world->store, kind, take_place, &order);
+    for (size_t i = 0; i < world->inner_count; i++) {
+        visit_blocks(&world->inner[i], kind, take_place, &order);
     }
-    gi_memory_free(memory, shapes, capacity * size);
-    gi_memory_free(memory, info, infos->capacity * sizeof *info);
-    gi_memory_free(memory, order.place, place_size);
+    for (size_t i = 0; i < count; i++) {
+        if (order.place[i] == GI_SHAPE_NONE) order.place[i] = order.next++;
+    }
+    for (size_t i = 0; i < world->spread.placements.count; i++) {
+        GiShapeRef *ref = &world->spread.placements.data[i].shape;
+        if (gi_shape_kind(*ref) != kind) continue;
+        *ref = gi_shape_ref(kind, order.place[gi_shape_index(*ref)]);
+    }
+    Move move = {shapes, width, count, infos->data, order.place, 0};
+    move_shapes(&move);
+    gi_memory_free(scene->memory, order.place, place_size);
 }
 
 /* ---------------------------------------------------------------- triangles */
@@ -230,8 +284,15 @@ static void reorder_mesh(GiScene *scene, size_t index) {
 
 /* ---------------------------------------------------------------- the whole */
 
+/* Shapes are made of doubles alone. */
 #define REORDER(kind, array)                                                                       \
-    reorder_kind(scene, world, kind, (void **)&(array).data, (array).capacity, sizeof *(array).data)
+    do {                                                                                           \
+        _Static_assert(sizeof *(array).data <= SHAPE_WIDTH * sizeof(double) &&                     \
+                           sizeof *(array).data % sizeof(double) == 0,                             \
+            "the room of move_shapes");                                                            \
+        reorder_kind(                                                                              \
+            scene, world, kind, (double *)(array).data, sizeof *(array).data / sizeof(double));    \
+    } while (0)
 
 void gi_reorder(GiScene *scene, GiWorld *world) {
     REORDER(GI_SHAPE_SPHERE, scene->spheres);

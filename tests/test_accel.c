@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT
+ * The builder of trees: the order in which shapes come does not matter to a tree's quality, nor the
+ * number of threads to the tree. */
+#include "test.h"
+
+#include "accel/tree.h"
+#include "random.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SPHERES = 40000, ORDERS = 8 };
+
+/* What the spheres are like: everywhere alike; in heaps, of sizes from a hair to a house; in a
+ * plane. */
+enum { EVEN, HEAPS, FLAT, LIKES };
+
+static GiSphere make_sphere(Random *random, int like, const GiVec heaps[16]) {
+    GiVec center = gi_vec(random_real(random, -1, 1), random_real(random, -1, 1),
+        like == FLAT ? 0 : random_real(random, -1, 1));
+    if (like != HEAPS) return (GiSphere){center, 0.01};
+    double size = exp2(-random_real(random, 0, 12));
+    GiVec heap = heaps[random_below(random, 16)];
+    return (GiSphere){gi_add(heap, gi_scale(center, size)), size * 0.05};
+}
+
+static int by_x(const void *a, const void *b) {
+    double x = ((const GiSphere *)a)->center.x, y = ((const GiSphere *)b)->center.x;
+    return (x > y) - (x < y);
+}
+
+static int by_y_down(const void *a, const void *b) {
+    double x = ((const GiSphere *)a)->center.y, y = ((const GiSphere *)b)->center.y;
+    return (x < y) - (x > y);
+}
+
+static int by_radius(const void *a, const void *b) {
+    double x = ((const GiSphere *)a)->radius, y = ((const GiSphere *)b)->radius;
+    return (x > y) - (x < y);
+}
+
+/* Sorted in three ways; from both ends of a sorted list by turns; else shuffled. */
+static void put_in_order(GiSphere *spheres, int order, Random *random) {
+    static int (*const compare[])(const void *, const void *) = {by_x, by_y_down, by_radius, by_x};
+    if (order < 4) qsort(spheres, SPHERES, sizeof *spheres, compare[order]);
+    for (int i = 1; i < SPHERES && order >= 3; i++) {
+        int k = order > 3 ? random_below(random, i + 1) : i % 2 == 0 ? i : SPHERES - i;
+        GiSphere swap = spheres[i];
+        spheres[i] = spheres[k];
+        spheres[k] = swap;
+    }
+}
+
+static void build(GiMemory *memory, int thread_count, const GiSphere *spheres, GiTreeStore *store) {
+    static GiShapeRef refs[SPHERES];
+    for (uint32_t i = 0; i < SPHERES; i++) refs[i] = gi_shape_ref(GI_SHAPE_SPHERE, i);
+    const GiShapes shapes = {.spheres = spheres};
+    const GiTreeInput input = {.refs = refs, .ref_count = SPHERES};
+    GiPool *pool;
+    CHECK_INT(gi_pool_create(memory, thread_count, &pool), GLINT_OK);
+    CHECK_INT(gi_tree_build(memory, pool, &shapes, &input, NULL, store), GLINT_OK);
+    gi_pool_destroy(pool);
+}
+
+static void order_of_input(void) {
+    static GiSphere spheres[SPHERES];
+    GiMemory memory;
+    gi_memory_init(&memory, NULL, 0);
+    for (int like = 0; like < LIKES; like++) {
+        Random random = {(uint64_t)like + 7};
+        GiVec heaps[16];
+        for (int i = 0; i < 16; i++) {
+            heaps[i] = gi_vec(random_real(&random, -9, 9), random_real(&random, -9, 9),
+                random_real(&random, -9, 9));
+        }
+        for (int i = 0; i < SPHERES; i++) spheres[i] = make_sphere(&random, like, heaps);
+        double least = INFINITY, most = 0;
+        for (int order = 0; order < ORDERS; order++) {
+            put_in_order(spheres, order, &random);
+            GiTreeStore store;
+            build(&memory, 1, spheres, &store);
+            least = fmin(least, store.sah_cost);
+            most = fmax(most, store.sah_cost);
+            gi_tree_free(&memory, &store);
+        }
+        CHECK(most < 1.05 * least);
+    }
+    CHECK_INT(atomic_load(&memory.used), 0);
+}
+
+/* Byte for byte. */
+static void number_of_threads(void) {
+    static GiSphere spheres[SPHERES];
+    Random random = {3};
+    for (int i = 0; i < SPHERES; i++) spheres[i] = make_sphere(&random, EVEN, NULL);
+    GiMemory memory;
+    gi_memory_init(&memory, NULL, 0);
+    GiTreeStore one, many;
+    build(&memory, 1, spheres, &one);
+    for (int threads = 2; threads < 6; threads++) {
+        build(&memory, threads, spheres, &many);
+        const GiTree *a = &one.tree, *b = &many.tree;
+        CHECK_INT(a->node_count, b->node_count);
+        CHECK_INT(a->sphere_block_count, b->sphere_block_count);
+        CHECK(memcmp(a->nodes, b->nodes, a->node_count * sizeof *a->nodes) == 0);
+        size_t size = a->sphere_block_count * sizeof *a->sphere_blocks;
+        CHECK(memcmp(a->sphere_blocks, b->sphere_blocks, size) == 0);
+        gi_tree_free(&memory, &many);
+    }
+    gi_tree_free(&memory, &one);
+    CHECK_INT(atomic_load(&memory.used), 0);
+}
+
+const GiTest tests_accel[] = {TEST(order_of_input), TEST(number_of_threads), TEST_END};
