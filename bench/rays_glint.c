@@ -77,7 +77,6 @@ static void load_part(GiTileScratch *scratch, const RaySet *set, const RayPart *
     GiPoints *points = &scratch->points;
     GiLit *lit = &scratch->lit;
     lit->count = points->count = part->count;
-    scratch->outlines = part->outlines;
     scratch->shared = false;
     for (int i = 0; i < part->count; i++) {
         const GiTraceRay *ray = &set->rays[part->first + (size_t)i];

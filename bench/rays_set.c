@@ -10,7 +10,7 @@
 /* What a camera ray met: the point beside the surface, and the normal toward the eye. */
 typedef struct Found {
     GiVec point, normal;
-    uint32_t x, y, shape;
+    uint32_t x, y;
 } Found;
 
 typedef struct Maker {
@@ -53,7 +53,7 @@ static void add_camera_ray(Maker *maker, uint32_t x, uint32_t y) {
         gi_shape_point(&world->shapes, hit.shape, hit.instance, origin, direction, hit.t, true);
     GiVec normal = gi_dot(at.geometric, direction) > 0 ? gi_negate(at.geometric) : at.geometric;
     maker->found[maker->found_count++] =
-        (Found){rounded(gi_along(at.point, normal, maker->offset)), normal, x, y, hit.shape.bits};
+        (Found){rounded(gi_along(at.point, normal, maker->offset)), normal, x, y};
 }
 
 static void add_shadow_rays(Maker *maker, GiVec light) {
@@ -61,7 +61,6 @@ static void add_shadow_rays(Maker *maker, GiVec light) {
     RayPart part = {.first = set->count, .light = light};
     for (int i = 0; i < maker->found_count; i++) {
         const Found *found = &maker->found[i];
-        part.outlines += i == 0 || found->shape != found[-1].shape;
         GiVec direction = gi_sub(light, found->point);
         if (gi_dot(direction, found->normal) > 0) add_ray(set, found->point, direction, 0, 1);
     }

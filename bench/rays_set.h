@@ -12,7 +12,7 @@ typedef enum RayKind { RAYS_CAMERA, RAYS_SHADOW, RAYS_BOUNCE, RAY_KIND_COUNT } R
 /* Shadow rays to one light, from the points of one tile. */
 typedef struct RayPart {
     size_t first;
-    int count, outlines; /* outlines: how often neighbours met different shapes */
+    int count;
     GiVec light;
 } RayPart;
 

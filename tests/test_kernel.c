@@ -660,14 +660,55 @@ static void empty_scene(void) {
     fixture_end(&fixture);
 }
 
+/* Whatever the directions, each ray has one place; and packets of rays over a square are small. */
+static void regrouped(void) {
+    static GiRegroup regroup;
+    static float x[GI_REGROUP_LIMIT], y[GI_REGROUP_LIMIT], z[GI_REGROUP_LIMIT];
+    static const int counts[] = {1, 15, 16, 17, 1000, 1024, 1025, 5000, GI_REGROUP_LIMIT};
+    const GiKernel *kernel;
+    for (int isa = 0; (kernel = gi_kernel_at(isa)) != NULL; isa++) {
+        for (int kind = 0; kind < 4; kind++) {
+            for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+                Random random = {(uint64_t)kind + 5};
+                int count = counts[k];
+                for (int i = 0; i < count; i++) {
+                    GiVec d = random_vec(&random, -1, 1);
+                    x[i] = kind == 1 ? 0.5f : (float)d.x;
+                    y[i] = kind == 1 ? 0.25f : (float)d.y;
+                    z[i] = kind == 0 ? 2 : kind == 1 ? 1 : (float)d.z;
+                    if (kind == 3) x[i] = NAN;
+                }
+                kernel->regroup(&regroup, x, y, z, count, 1e9);
+                bool seen[GI_REGROUP_LIMIT] = {false};
+                for (int i = 0; i < count; i++) seen[regroup.order[i]] = true;
+                int seen_count = 0;
+                for (int i = 0; i < count; i++) seen_count += seen[i];
+                CHECK_INT(seen_count, count);
+                if (kind > 0) continue;
+                double area = 0;
+                for (int i = 0; i + GI_PACKET_SIZE <= count; i += GI_PACKET_SIZE) {
+                    float low[2] = {1, 1}, high[2] = {-1, -1};
+                    for (int j = i; j < i + GI_PACKET_SIZE; j++) {
+                        int ray = regroup.order[j];
+                        low[0] = fminf(low[0], x[ray]), high[0] = fmaxf(high[0], x[ray]);
+                        low[1] = fminf(low[1], y[ray]), high[1] = fmaxf(high[1], y[ray]);
+                    }
+                    area += (double)((high[0] - low[0]) * (high[1] - low[1]));
+                }
+                CHECK(area < 2 * 4); /* twice the square's */
+            }
+        }
+    }
+}
+
 static void names(void) {
     CHECK(gi_kernel_find(NULL) == gi_kernel_at(0));
     CHECK(gi_kernel_find("portable") != NULL);
     CHECK(gi_kernel_find("sse9") == NULL);
 }
 
-const GiTest tests_kernel[] = {TEST(names), TEST(empty_scene), TEST(few_shapes), TEST(many_shapes),
-    TEST(interior_rule), TEST(large_range), TEST(far_away), TEST(extreme_scales), TEST(one_outlier),
-    TEST(groups), TEST(meshes), TEST(large_and_small_triangles), TEST(instances),
+const GiTest tests_kernel[] = {TEST(names), TEST(regrouped), TEST(empty_scene), TEST(few_shapes),
+    TEST(many_shapes), TEST(interior_rule), TEST(large_range), TEST(far_away), TEST(extreme_scales),
+    TEST(one_outlier), TEST(groups), TEST(meshes), TEST(large_and_small_triangles), TEST(instances),
     TEST(unbounded_instances), TEST(instances_far_away), TEST(rectangles), TEST(doubled_groups),
     TEST(coincident), TEST(deep_tree), TEST(wide_and_deep_tree), TEST_END};

@@ -450,8 +450,10 @@ static void first_in_file(void) {
     fixture_begin(&f);
     Random random = {8};
     mesh_begin(&f.scene);
+    GiVec first_corner[100]; /* of each in the file; commit moves rows and vertices */
     for (uint32_t i = 0; i < 100; i++) {
         GiVec p = gi_vec(random_below(&random, 10), random_below(&random, 10), 0);
+        first_corner[i] = p;
         mesh_position(&f.scene, p);
         mesh_position(&f.scene, gi_add(p, gi_vec(1, 0, 0)));
         mesh_position(&f.scene, gi_add(p, gi_vec(0, 1, 0)));
@@ -467,17 +469,101 @@ static void first_in_file(void) {
         uint32_t seen = gi_shape_index(hit.shape);
         const float *corner = f.scene.meshes.positions.data[f.scene.meshes.corners.data[seen][0]];
         CHECK(corner[0] == (float)(i / 10) && corner[1] == (float)(i % 10));
-        /* Rows have moved, positions have not. */
-        CHECK_INT(f.scene.meshes.corners.data[seen][0], 3 * original[seen]);
+        CHECK_VEC(first_corner[original[seen]], (double)corner[0], (double)corner[1], 0);
         for (uint32_t k = 0; k < original[seen]; k++) {
-            const float *other = f.scene.meshes.positions.data[3 * k];
-            CHECK(other[0] != corner[0] || other[1] != corner[1]);
+            CHECK(first_corner[k].x != (double)corner[0] || first_corner[k].y != (double)corner[1]);
         }
     }
     fixture_end(&f);
 }
 
+/* ---------------------------------------------------------------- vertices */
+
+enum { TRIANGLES = 200, VERTICES = 150, MORE = 50 };
+
+/* The numbers of a triangle's corners; a normal it has none of is zero. */
+typedef struct Face {
+    float position[3][3], normal[3][3], texcoord[3][2];
+} Face;
+
+static Face face_of(const GiScene *scene, uint32_t triangle) {
+    const GiMesh *mesh = &scene->meshes.meshes.data[0];
+    Face face;
+    memset(&face, 0, sizeof face);
+    for (int k = 0; k < 3; k++) {
+        uint32_t at = scene->meshes.corners.data[triangle][k], normal = at;
+        if (mesh->normal_corners != NULL) normal = mesh->normal_corners[triangle][k];
+        memcpy(face.position[k], scene->meshes.positions.data[at], sizeof face.position[k]);
+        memcpy(face.texcoord[k], scene->meshes.texcoords.data[at], sizeof face.texcoord[k]);
+        if (mesh->normal_corners != NULL && mesh->normal_corners[triangle][0] == GI_SHAPE_NONE) {
+            continue;
+        }
+        memcpy(face.normal[k], scene->meshes.normals.data[normal], sizeof face.normal[k]);
+    }
+    return face;
+}
+
+static void add_vertices(GiScene *scene, Random *random, int normal_count) {
+    GiMeshStore *store = &scene->meshes;
+    GiMesh *mesh = mesh_begin(scene);
+    mesh->smooth = mesh->textured = true;
+    for (int i = 0; i < VERTICES; i++) {
+        mesh_position(scene, random_vec(random, -1, 1));
+        CHECK(gi_array_reserve(scene->memory, &store->texcoords, 1));
+        float *texcoord = store->texcoords.data[store->texcoords.count++];
+        texcoord[0] = (float)i, texcoord[1] = 0;
+    }
+    for (int i = 0; i < normal_count; i++) {
+        CHECK(gi_array_reserve(scene->memory, &store->normals, 1));
+        float *normal = store->normals.data[store->normals.count++];
+        normal[0] = (float)(i + 1), normal[1] = normal[2] = 0;
+    }
+    /* The last vertices are in no triangle. */
+    for (int i = 0; i < TRIANGLES; i++) {
+        uint32_t row[3];
+        for (int k = 0; k < 3; k++) row[k] = (uint32_t)random_below(random, VERTICES - 10);
+        mesh_triangle(scene, row[0], row[1], row[2]);
+    }
+}
+
+static void add_own_rows(GiScene *scene, Random *random, int normal_count) {
+    GiMesh *mesh = &scene->meshes.meshes.data[0];
+    mesh->normal_corners =
+        gi_memory_allocate(scene->memory, TRIANGLES * sizeof *mesh->normal_corners);
+    CHECK(mesh->normal_corners != NULL);
+    for (int i = 0; i < TRIANGLES; i++) {
+        for (int k = 0; k < 3; k++) {
+            mesh->normal_corners[i][k] = (uint32_t)random_below(random, normal_count);
+        }
+        if (i % 7 == 0) mesh->normal_corners[i][0] = GI_SHAPE_NONE;
+    }
+}
+
+/* Commit gives vertices new numbers; a triangle's corners are what they were, whether normals share
+ * the rows of the positions or not, and as many as these or not. */
+static void vertices_move(void) {
+    for (int way = 0; way < 3; way++) {
+        Fixture f;
+        fixture_begin(&f);
+        Random random = {11};
+        int normal_count = way == 0 ? VERTICES : VERTICES + MORE;
+        add_vertices(&f.scene, &random, normal_count);
+        if (way == 2) add_own_rows(&f.scene, &random, normal_count);
+        Face before[TRIANGLES];
+        for (uint32_t i = 0; i < TRIANGLES; i++) before[i] = face_of(&f.scene, i);
+        CHECK(gi_scene_place(&f.scene, GI_SHAPE_NONE, mesh_surface(&f.scene)));
+        fixture_commit(&f);
+        for (uint32_t i = 0; i < TRIANGLES; i++) {
+            Face after = face_of(&f.scene, i);
+            CHECK(memcmp(&after, &before[f.world.original[i]], sizeof after) == 0);
+        }
+        /* The first triangle's are the first, where they move. */
+        if (way != 1) CHECK_INT(f.scene.meshes.corners.data[0][0], 0);
+        fixture_end(&f);
+    }
+}
+
 const GiTest tests_triangle[] = {TEST(closed_surfaces), TEST(closed_to_bundles),
     TEST(agrees_with_second_formula), TEST(without_area), TEST(edge_on), TEST(blends),
     TEST(blends_under_a_transform), TEST(sphere_texcoords), TEST(rectangle), TEST(first_in_file),
-    TEST_END};
+    TEST(vertices_move), TEST_END};

@@ -71,14 +71,16 @@ static inline bool any_of(unsigned bits, int j) {
     return (bits >> j & ((1u << GI_DOUBLES) - 1)) != 0;
 }
 
+/* How far the rays of a packet still look. */
 static inline void packet_refresh_far(Tile *tile, int packet) {
     const GiBundle *bundle = tile->bundle;
-    R far = R_OF(-INFINITY);
+    const R scale = R_OF(tile->scale * (1 + GI_WIDER));
+    float *far = tile->far + packet * GI_PACKET_SIZE;
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         int i = packet * GI_PACKET_SIZE + j;
-        far = R_MAX(far, r_load(bundle->t + i) * r_load(bundle->depth + i));
+        r_store_floats(far + j, r_load(bundle->t + i) * r_load(bundle->depth + i) * scale);
     }
-    tile->packets.far[packet] = (float)(r_maximum(far) * tile->scale) * (1 + GI_WIDER);
+    tile->packets.far[packet] = f_highest(far, GI_PACKET_SIZE);
 }
 
 /* These rays of a packet look for nothing any more. Returns whether that was its last. */
@@ -105,21 +107,34 @@ static inline unsigned take_nearer(Tile *tile, GiShapeRef ref, int i, M hit, R t
     return bits;
 }
 
-/* One shape against those rays of a packet whose bits are set. Returns whether anything changed. */
-static inline bool test_closest(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
+/* How far the rays of the packet look must be found anew, when one of them has met something. */
+static inline bool note_nearer(Tile *tile, int packet, unsigned changed) {
+    if (changed == 0) return false;
+    tile->nearer[packet / 32] |= 1u << packet % 32;
+    return true;
+}
+
+/* Where the rays from i on meet the shape; corners: of a triangle. */
+static inline M tile_meets(Tile *tile, GiShapeRef ref, R corners[3][3], int i, R *t) {
     const GiBundle *bundle = tile->bundle;
+    gi_wide_Ray ray = tile_ray(tile, ref, i);
+    R t_min = r_load(bundle->t_min + i), t_max = r_load(bundle->t_max + i);
+    if (corners != NULL) return gi_wide_triangle_at(corners, &ray, t_min, t_max, t);
+    return gi_wide_shape(tile->shapes, ref, &ray, t_min, t_max, t);
+}
+
+/* One shape against those rays of a packet whose bits are set. Returns whether anything changed. */
+static inline bool test_closest(
+    Tile *tile, GiShapeRef ref, R corners[3][3], int packet, unsigned rays) {
     unsigned changed = 0;
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
-        gi_wide_Ray ray = tile_ray(tile, ref, i);
         R t;
-        M hit = gi_wide_shape(
-            tile->shapes, ref, &ray, r_load(bundle->t_min + i), r_load(bundle->t_max + i), &t);
+        M hit = tile_meets(tile, ref, corners, i, &t);
         changed |= take_nearer(tile, ref, i, hit, t);
     }
-    if (changed != 0) packet_refresh_far(tile, packet);
-    return changed != 0;
+    return note_nearer(tile, packet, changed);
 }
 
 /* The same of spheres. Not inline, so that it has all registers to itself. */
@@ -136,8 +151,7 @@ static NOINLINE bool closest_sphere(Tile *tile, GiShapeRef ref, int packet, unsi
             gi_wide_sphere(sphere, &ray, r_load(bundle->t_min + i), r_load(bundle->t_max + i), &t);
         changed |= take_nearer(tile, ref, i, hit, t);
     }
-    if (changed != 0) packet_refresh_far(tile, packet);
-    return changed != 0;
+    return note_nearer(tile, packet, changed);
 }
 
 /* Without those rays that spare this shape. */
@@ -149,17 +163,16 @@ static inline unsigned not_sparing(const Tile *tile, GiShapeRef ref, int packet,
            ~(skip & sixteen_equal(tile->instance, bundle->skip_instance + packet * GI_PACKET_SIZE));
 }
 
-static inline bool test_any(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
+static inline bool test_any(
+    Tile *tile, GiShapeRef ref, R corners[3][3], int packet, unsigned rays) {
     GiBundle *bundle = tile->bundle;
     unsigned stopped = 0;
     rays = not_sparing(tile, ref, packet, rays);
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
-        gi_wide_Ray ray = tile_ray(tile, ref, i);
         R t;
-        M hit = gi_wide_shape(
-            tile->shapes, ref, &ray, r_load(bundle->t_min + i), r_load(bundle->t_max + i), &t);
+        M hit = tile_meets(tile, ref, corners, i, &t);
         unsigned bits = m_bits(hit) & rays >> j;
         u_store_where(bundle->shape + i, bits, ref.bits);
         stopped |= bits << j;
@@ -201,7 +214,14 @@ static inline bool tile_test(Tile *tile, GiShapeRef ref, int packet, unsigned ra
         return tile->any ? any_sphere(tile, ref, packet, rays)
                          : closest_sphere(tile, ref, packet, rays);
     }
-    return tile->any ? test_any(tile, ref, packet, rays) : test_closest(tile, ref, packet, rays);
+    if (gi_shape_kind(ref) == GI_SHAPE_TRIANGLE) {
+        R corners[3][3];
+        gi_wide_corners(&tile->shapes->triangles, gi_shape_index(ref), corners);
+        return tile->any ? test_any(tile, ref, corners, packet, rays)
+                         : test_closest(tile, ref, corners, packet, rays);
+    }
+    return tile->any ? test_any(tile, ref, NULL, packet, rays)
+                     : test_closest(tile, ref, NULL, packet, rays);
 }
 
 /* ---------------------------------------------------------------- instances */
@@ -279,7 +299,7 @@ static inline bool bring_home(
         bundle->instance[i] = inner->instance[k];
     }
     if (tile->any) return packet_stop(tile, packet, met);
-    if (met != 0) packet_refresh_far(tile, packet);
+    if (met != 0) tile->nearer[packet / 32] |= 1u << packet % 32;
     return met != 0;
 }
 
@@ -348,6 +368,12 @@ static inline void tile_flush(Tile *tile) {
     tile_count(tile, tile->test_count);
     tile->test_count = 0;
     if (changed && tile->any) tile_enclose(tile);
+    for (int k = 0; k < GI_PACKET_COUNT; k += 32) {
+        for (unsigned rest = tile->nearer[k / 32]; rest != 0; rest &= rest - 1) {
+            packet_refresh_far(tile, k + lowest_bit(rest));
+        }
+        tile->nearer[k / 32] = 0;
+    }
     if (changed && !tile->any) tile_refresh_far(tile);
 }
 
@@ -421,6 +447,30 @@ static inline void tile_leaf(Tile *tile, uint32_t child) {
     if (count >= TEST_BATCH) tile_flush(tile);
 }
 
+/* Leaves of triangles wait for each other while their corners are on the way from memory. */
+enum { LEAF_BATCH = 8 };
+typedef struct Leaves {
+    int count;
+    StackEntry entry[LEAF_BATCH];
+} Leaves;
+
+static inline void tile_leaves(Tile *tile, Leaves *leaves) {
+    for (int i = 0; i < leaves->count; i++) {
+        if (leaves->entry[i].enter <= tile->frustum.far) tile_leaf(tile, leaves->entry[i].child);
+    }
+    leaves->count = 0;
+}
+
+static inline void tile_put_off(Tile *tile, StackEntry entry, Leaves *leaves) {
+    const GiTriangles *triangles = &tile->shapes->triangles;
+    const uint32_t(*rows)[3] = triangles->corners + gi_child_first(entry.child);
+    for (uint32_t i = 0; i < gi_child_count(entry.child); i++) {
+        for (int k = 0; k < 3; k++) prefetch(triangles->positions[rows[i][k]]);
+    }
+    leaves->entry[leaves->count++] = entry;
+    if (leaves->count == LEAF_BATCH) tile_leaves(tile, leaves);
+}
+
 static inline void tile_walk(Tile *tile) {
     const GiTree *tree = tile->tree;
     uint32_t packet_count = (uint32_t)(tile->bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
@@ -431,6 +481,7 @@ static inline void tile_walk(Tile *tile) {
         tile_flush(tile);
     }
     StackEntry stack[STACK_LIMIT];
+    Leaves leaves = {.count = 0};
     int count = 0;
     if (tree->root != GI_CHILD_NONE) stack[count++] = (StackEntry){tree->root, -INFINITY};
     while (count > 0 && !tile->stopped) {
@@ -444,10 +495,11 @@ static inline void tile_walk(Tile *tile) {
             count = push_children(tree, tile->shapes, stack, count, node->child, bits, enter);
             break;
         }
-        case GI_CHILD_TRIANGLES: tile_leaf(tile, top.child); break;
+        case GI_CHILD_TRIANGLES: tile_put_off(tile, top, &leaves); break;
         default: tile_block(tile, top.child); break;
         }
     }
+    tile_leaves(tile, &leaves);
     tile_flush(tile);
 }
 
@@ -488,6 +540,7 @@ static inline void bundle_run(Tile *tile) {
     tile->scale = tile->tree->scale;
     tile->test_count = tile->tests_made = 0;
     tile->stopped = false;
+    for (int i = 0; i < GI_PACKET_COUNT / 32; i++) tile->nearer[i] = 0;
     for (int i = 0; i < GI_BUNDLE_SIZE / 32; i++) tile->inverse_known[i] = 0;
     int end = (bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE * GI_PACKET_SIZE;
     for (int i = 0; i < end; i++) bundle->shape[i] = bundle->instance[i] = GI_SHAPE_NONE;

@@ -51,7 +51,9 @@ typedef struct Tile {
     Frustum frustum;
     double scale;
     bool stopped;
-    int tests_made; /* since `stop` was asked */
+    uint32_t nearer[GI_PACKET_COUNT / 32]; /* bits of packets whose rays have met something since
+                                              they were looked at */
+    int tests_made;                        /* since `stop` was asked */
     int test_count;
     Test tests[TEST_LIMIT];
 } Tile;

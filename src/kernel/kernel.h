@@ -32,20 +32,13 @@ typedef struct GiTraceHit {
     uint32_t instance; /* that the shape was met in, or GI_SHAPE_NONE */
 } GiTraceHit;
 
-/* Up to 1024 rays whose lines pass through one point, traced together. Neighbours in the arrays,
- * sixteen at a time, should be neighbours in space. Two uses:
+/* Up to GI_BUNDLE_SIZE rays whose lines pass through one point, traced together. Neighbours in the
+ * arrays, sixteen at a time, should be neighbours in space. Two uses:
  *     closest   the rays start at the apex (camera rays)
  *     any       the rays end there: origin + direction is the apex, t_max at most 1 (shadow rays
  *               of a point light)
  * In: everything up to skip_instance. Out: shape (GI_SHAPE_NONE: nothing met) and, for closest,
  * instance and t. */
-enum {
-    GI_BUNDLE_SIZE = 1024,
-    GI_BUNDLE_ROOM = GI_BUNDLE_SIZE + 16, /* else all arrays would meet in the same cache sets */
-    GI_PACKET_SIZE = 16,
-    GI_PACKET_COUNT = GI_BUNDLE_SIZE / GI_PACKET_SIZE
-};
-
 typedef struct GiBundle {
     _Alignas(64) double ox[GI_BUNDLE_ROOM];
     double oy[GI_BUNDLE_ROOM], oz[GI_BUNDLE_ROOM];
@@ -97,10 +90,10 @@ typedef struct GiKernel {
     /* Adds what arrives to what the points show. */
     void (*add)(const GiLit *lit, GiPoints *points);
     GiGammaFn encode;
-    /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT. `large`: the shapes around
-     * are, so that the order stays as it is where it is good enough. */
-    void (*regroup)(
-        GiRegroup *regroup, const float *x, const float *y, const float *z, int count, bool large);
+    /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT; leaves: of the scene's
+     * trees. */
+    void (*regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z, int count,
+        double leaves);
 } GiKernel;
 
 /* The kernels this build has and this machine can run, fastest first; null at the end. */

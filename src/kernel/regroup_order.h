@@ -1,14 +1,25 @@
 /* SPDX-License-Identifier: MIT
- * The order of regroup.h. Rays become points in the plane across their mean direction, with axes
- * along the cloud's own; each coordinate is replaced by its rank among 128, and the rays are walked
- * along a Hilbert curve. Ranks, not lengths: behind a silhouette one far pixel would otherwise push
- * all others into a few cells. One counting sort does the rest, so the whole costs a few
- * nanoseconds a ray. Part of kernel.c, for the sake of its vectors. */
+ * The order of regroup.h: sort-tile-recursive packing (Leutenegger, Lopez, Edgington 1997). Rays
+ * become points in the plane across their mean direction. Along the longer axis of their cloud they
+ * are cut into slabs of equal numbers, and each slab across into groups; first all rays into
+ * bundles, then each bundle, along axes of its own, into packets:
+ *
+ *        +---+------+-----+       Every other slab is walked backwards, so that a group which
+ *        |   |  >---|---v |       holds the end of one and the beginning of the next is no larger
+ *        | ^ +------+   | |       than others. Equal numbers, not lengths: behind a silhouette a
+ *        | | |      |   | |       few far points would otherwise make all others one group.
+ *        | | |      +-----+
+ *        +---+------+-----+
+ *
+ * Both cuts are counting sorts, so the whole costs a few nanoseconds a ray. Part of kernel.c, for
+ * the sake of its vectors. */
 #pragma once
 
-enum { BUCKETS = 512, RANKS = 128, CELLS = RANKS * RANKS, KEEP_ORDER = 16 };
-
-static const float GOOD_WIDTH = 1.5f;
+enum {
+    BUCKETS = 256,    /* that places along an axis are told apart by */
+    SLABS = 16,       /* at most */
+    SLAB_BUCKETS = 32 /* that a slab is sorted by */
+};
 
 typedef struct Axes {
     float u[3], v[3], w[3];
@@ -36,26 +47,67 @@ static Axes axes_of(const float *x, const float *y, const float *z, int count) {
     return axes;
 }
 
-static void project(
-    GiRegroup *regroup, const float *xs, const float *ys, const float *zs, int count) {
-    const Axes axes = axes_of(xs, ys, zs, count);
+static void project(const Axes *across, const float *restrict xs, const float *restrict ys,
+    const float *restrict zs, int count, float *restrict a, float *restrict b) {
+    const Axes axes = *across;
     for (int i = 0; i < count; i++) {
         float x = xs[i], y = ys[i], z = zs[i];
         float depth = axes.w[0] * x + axes.w[1] * y + axes.w[2] * z;
         float least = 1e-3f * (fabsf(x) + fabsf(y) + fabsf(z)); /* rays across or backward */
         float divisor = depth > least ? depth : least;
         float inverse = divisor > 0 ? 1 / divisor : 0;
-        regroup->a[i] = (axes.u[0] * x + axes.u[1] * y + axes.u[2] * z) * inverse;
-        regroup->b[i] = (axes.v[0] * x + axes.v[1] * y + axes.v[2] * z) * inverse;
+        a[i] = (axes.u[0] * x + axes.u[1] * y + axes.u[2] * z) * inverse;
+        b[i] = (axes.v[0] * x + axes.v[1] * y + axes.v[2] * z) * inverse;
     }
 }
 
-/* Turns the coordinates so that a runs along the axis of largest variance. */
-static void align(GiRegroup *regroup, int count) {
+/* Smallest and largest. */
+typedef struct Extent {
+    float low, high;
+} Extent;
+
+static inline Extent extent_of(const float *p, int count) {
+    return (Extent){f_lowest(p, count), f_highest(p, count)};
+}
+
+static inline void extend(Extent *extent, Extent by) {
+    if (by.low < extent->low) extent->low = by.low;
+    if (by.high > extent->high) extent->high = by.high;
+}
+
+static inline float area_of(Extent a, Extent b) { return (a.high - a.low) * (b.high - b.low); }
+
+/* Whether the rays may stay as they are: where a scene is coarse, packets that overlap cost less
+ * than the sorting. About as many leaves as there are in the scene are spread over the rectangle
+ * round all rays; how many times its area the packets cover then says how many they meet. The limit
+ * was found by trial; a few packets tell enough. */
+static bool order_serves(
+    const Axes *axes, const float *x, const float *y, const float *z, int count, double leaves) {
+    enum { APART = 4 };
+    Extent all_a = {INFINITY, -INFINITY}, all_b = all_a;
+    float sum = 0, a[GI_PACKET_SIZE], b[GI_PACKET_SIZE];
+    for (int i = 0; i + GI_PACKET_SIZE <= count; i += APART * GI_PACKET_SIZE) {
+        project(axes, x + i, y + i, z + i, GI_PACKET_SIZE, a, b);
+        Extent packet_a = extent_of(a, GI_PACKET_SIZE), packet_b = extent_of(b, GI_PACKET_SIZE);
+        sum += area_of(packet_a, packet_b);
+        extend(&all_a, packet_a);
+        extend(&all_b, packet_b);
+    }
+    return APART * (double)sum * leaves <= 25000 * (double)area_of(all_a, all_b);
+}
+
+/* Turns points so that x runs along their longest extent. */
+typedef struct Turn {
+    float c, s; /* x = a c + b s, y = b c - a s */
+    float aspect;
+} Turn;
+
+/* By the moments of some of the points. */
+static Turn turn_of(const float *as, const float *bs, int count) {
     double mean_a = 0, mean_b = 0, aa = 0, ab = 0, bb = 0;
-    int step = 1 + count / 256, samples = 0;
+    int step = 1 + count / 64, samples = 0;
     for (int i = 0; i < count; i += step, samples++) {
-        double a = regroup->a[i], b = regroup->b[i];
+        double a = as[i], b = bs[i];
         mean_a += a;
         mean_b += b;
         aa += a * a;
@@ -65,49 +117,44 @@ static void align(GiRegroup *regroup, int count) {
     aa -= mean_a * mean_a / samples;
     ab -= mean_a * mean_b / samples;
     bb -= mean_b * mean_b / samples;
-    double half = (aa - bb) / 2, root = sqrt(half * half + ab * ab);
+    double half = (aa - bb) / 2, root = sqrt(half * half + ab * ab), middle = (aa + bb) / 2;
     double x = half + root, y = ab, length = sqrt(x * x + y * y);
-    if (!(length > 0)) return;
-    float c = (float)(x / length), s = (float)(y / length);
-    for (int i = 0; i < count; i++) {
-        float a = regroup->a[i], b = regroup->b[i];
-        regroup->a[i] = a * c + b * s;
-        regroup->b[i] = b * c - a * s;
-    }
+    if (!(length > 0)) return (Turn){1, 0, 1};
+    double thin = middle - root, least = 1e-4 * middle;
+    double aspect = sqrt((middle + root) / (thin > least ? thin : least));
+    return (Turn){(float)(x / length), (float)(y / length), (float)aspect};
 }
 
-/* The place of each cell on the curve (Hilbert 1891), from squares of one cell up: four of a size
- * make the next, turned so that the curve stays in one piece. Made when it is first needed, since
- * not all scenes have shadows. */
-static void draw_curve(uint16_t curve[RANKS * RANKS]) {
-    curve[0] = 0;
-    for (unsigned side = 1; side < RANKS; side *= 2) {
-        unsigned cells = side * side;
-        for (unsigned x = 0; x < side; x++) {
-            for (unsigned y = 0; y < side; y++) {
-                unsigned place = curve[x * RANKS + y];
-                unsigned turned_x = 2 * side - 1 - y, turned_y = side - 1 - x;
-                curve[x * RANKS + side + y] = (uint16_t)(cells + place);
-                curve[(side + x) * RANKS + side + y] = (uint16_t)(2 * cells + place);
-                curve[turned_x * RANKS + turned_y] = (uint16_t)(3 * cells + place);
-            }
-        }
-        for (unsigned x = 0; x < side; x++) {
-            for (unsigned y = 0; y < x; y++) {
-                uint16_t place = curve[x * RANKS + y];
-                curve[x * RANKS + y] = curve[y * RANKS + x];
-                curve[y * RANKS + x] = place;
-            }
-        }
+/* Behind the last point, up to a whole vector. */
+static void repeat_first(float *a, float *b, int count) {
+    for (int i = count; i % GI_FLOATS != 0; i++) a[i] = a[0], b[i] = b[0];
+}
+
+/* The turned points; those behind the last are as good as any. */
+static void turn_points(const Turn *turn, const float *a, const float *b, int count, float *x,
+    float *y, Extent *x_extent, Extent *y_extent) {
+    const F c = f_of(turn->c), s = f_of(turn->s), minus = f_of(-turn->s);
+    F x_low = f_of(INFINITY), y_low = x_low, x_high = f_of(-INFINITY), y_high = x_high;
+    for (int i = 0; i < count; i += GI_FLOATS) {
+        F p = f_load(a + i), q = f_load(b + i);
+        F x_now = f_fused(p, c, q * s), y_now = f_fused(q, c, p * minus);
+        f_store(x + i, x_now);
+        f_store(y + i, y_now);
+        x_low = f_min(x_now, x_low), x_high = f_max(x_now, x_high);
+        y_low = f_min(y_now, y_low), y_high = f_max(y_now, y_high);
     }
+    *x_extent = (Extent){f_least(x_low), f_most(x_high)};
+    *y_extent = (Extent){f_least(y_low), f_most(y_high)};
 }
 
 /* The buckets of all values; the ends also take what lies outside or is not a number, so that
  * nothing a scene may hold leads out of the array. Without branches, so that compilers make vectors
  * of it. */
 static void find_buckets(
-    const float *restrict value, int count, float low, float scale, uint16_t *restrict bucket) {
-    const float last = BUCKETS - 1;
+    const float *restrict value, int count, Extent extent, int buckets, uint16_t *restrict bucket) {
+    const float last = (float)buckets - 1, low = extent.low;
+    float scale = ((float)buckets - 0.01f) / (extent.high - extent.low);
+    if (!(scale > 0 && scale < 1e30f)) scale = 0; /* all alike, or not numbers */
     for (int i = 0; i < count; i++) {
         float place = (value[i] - low) * scale;
         place = place > 0 ? place : 0;
@@ -117,100 +164,118 @@ static void find_buckets(
 }
 
 /* How many values are in each bucket. Neighbours often fall into the same one, and the next count
- * of it would wait for the last: four take turns. */
-static void count_buckets(const uint16_t *bucket, int count, int counts[BUCKETS]) {
-    int turns[4][BUCKETS] = {{0}};
+ * of it would wait for the last: four take turns, each with counts of its own. */
+enum { TURNS = 4, MOST_BUCKETS = SLABS * SLAB_BUCKETS };
+typedef struct Counts {
+    uint16_t of[TURNS][MOST_BUCKETS], all[MOST_BUCKETS];
+} Counts;
+
+static void count_buckets(const uint16_t *bucket, int count, int buckets, Counts *counts) {
+    for (int k = 0; k < TURNS; k++) {
+        memset(counts->of[k], 0, (size_t)buckets * sizeof counts->of[k][0]);
+    }
     int i = 0;
-    for (; i + 4 <= count; i += 4) {
-        for (int k = 0; k < 4; k++) turns[k][bucket[i + k]]++;
+    for (; i + TURNS <= count; i += TURNS) {
+        for (int k = 0; k < TURNS; k++) counts->of[k][bucket[i + k]]++;
     }
-    for (; i < count; i++) turns[0][bucket[i]]++;
-    for (int k = 0; k < BUCKETS; k++) {
-        counts[k] = turns[0][k] + turns[1][k] + turns[2][k] + turns[3][k];
+    for (int k = 0; i + k < count; k++) counts->of[k][bucket[i + k]]++;
+    for (int k = 0; k < buckets; k++) {
+        counts->all[k] =
+            (uint16_t)(counts->of[0][k] + counts->of[1][k] + counts->of[2][k] + counts->of[3][k]);
     }
 }
 
-/* Adds the rank of every value, times a factor, to its key. The values are followed by room for
- * fifteen more. */
-static void rank(GiRegroup *regroup, float *value, int count, int factor) {
-    int whole = (count + 15) / 16 * 16;
-    for (int i = count; i < whole; i++) value[i] = value[0];
-    float low = f_lowest(value, whole), high = f_highest(value, whole);
-    float scale = (BUCKETS - 0.01f) / (high - low);
-    if (!(scale > 0 && scale < 1e30f)) return; /* all alike, or not numbers */
-    int counts[BUCKETS];
-    find_buckets(value, count, low, scale, regroup->bucket);
-    count_buckets(regroup->bucket, count, counts);
-    uint16_t ranks[BUCKETS];
-    float rank_scale = (RANKS - 0.01f) / (float)count;
+/* What order[i] is to be: the values bucket by bucket. The counts become places. */
+static void sort_by_bucket(
+    const uint16_t *bucket, int count, int buckets, Counts *counts, uint16_t *order) {
+    count_buckets(bucket, count, buckets, counts);
+    for (int i = 0, below = 0; i < buckets; i++) {
+        int here = counts->all[i];
+        counts->all[i] = (uint16_t)below;
+        below += here;
+    }
+    for (int i = 0; i < buckets; i++) {
+        unsigned place = counts->all[i];
+        for (int k = 0; k < TURNS; k++) {
+            unsigned here = counts->of[k][i];
+            counts->of[k][i] = (uint16_t)place;
+            place += here;
+        }
+    }
+    int i = 0;
+    for (; i + TURNS <= count; i += TURNS) {
+        for (int k = 0; k < TURNS; k++) order[counts->of[k][bucket[i + k]]++] = (uint16_t)(i + k);
+    }
+    for (int k = 0; i + k < count; k++) order[counts->of[k][bucket[i + k]]++] = (uint16_t)(i + k);
+}
+
+/* Sorts points into groups of so many; order gets a permutation. Returns how the points were
+ * turned. */
+static Turn pack(
+    GiRegroup *regroup, const float *a, const float *b, int count, int group, uint16_t *order) {
+    uint16_t *restrict across = regroup->across, *restrict along = regroup->along;
+    const Turn turn = turn_of(a, b, count);
+    Extent x, y;
+    turn_points(&turn, a, b, count, regroup->x, regroup->y, &x, &y);
+    int groups = (count + group - 1) / group, most = groups < SLABS ? groups : SLABS;
+    float wanted = sqrtf((float)groups * turn.aspect) + 0.5f;
+    int slabs = wanted < (float)most ? (int)wanted : most;
+    /* Slabs of equal numbers, up to a bucket. */
+    Counts counts;
+    find_buckets(regroup->x, count, x, BUCKETS, across);
+    count_buckets(across, count, BUCKETS, &counts);
+    uint16_t first[BUCKETS], flip[BUCKETS];
+    float slab_scale = ((float)slabs - 0.01f) / (float)count;
     for (int i = 0, below = 0; i < BUCKETS; i++) {
-        int middle = below + counts[i] / 2; /* of a bucket, which is not split */
-        ranks[i] = (uint16_t)((int)((float)middle * rank_scale) * factor);
-        below += counts[i];
+        int slab = (int)((float)(below + counts.all[i] / 2) * slab_scale);
+        first[i] = (uint16_t)(slab * SLAB_BUCKETS);
+        flip[i] = slab % 2 == 0 ? 0 : SLAB_BUCKETS - 1;
+        below += counts.all[i];
     }
+    find_buckets(regroup->y, count, y, SLAB_BUCKETS, along);
     for (int i = 0; i < count; i++) {
-        regroup->key[i] = (uint16_t)(regroup->key[i] + ranks[regroup->bucket[i]]);
+        along[i] = (uint16_t)(first[across[i]] + (along[i] ^ flip[across[i]]));
     }
+    sort_by_bucket(along, count, slabs * SLAB_BUCKETS, &counts, order);
+    return turn;
 }
 
-/* The curve is the same on a coarser grid, four cells to one; so few rays need few cells. */
-static int coarseness(int count) {
-    int shift = 0;
-    while (shift < 6 && CELLS >> shift >= 4 * count) shift += 2;
-    return shift;
-}
-
-static void sort_by_key(GiRegroup *regroup, int count) {
-    int shift = coarseness(count);
-    uint16_t start[CELLS + 1];
-    for (int i = 0; i <= CELLS >> shift; i++) start[i] = 0;
-    for (int i = 0; i < count; i++) start[(regroup->key[i] >> shift) + 1]++;
-    for (int i = 0; i < CELLS >> shift; i++) start[i + 1] = (uint16_t)(start[i + 1] + start[i]);
+static void pack_bundle(
+    GiRegroup *regroup, const Axes *axes, const uint16_t *rays, int count, int begin) {
+    float a[GI_BUNDLE_SIZE + 16] = {0}, b[GI_BUNDLE_SIZE + 16] = {0};
+    uint16_t order[GI_BUNDLE_SIZE];
     for (int i = 0; i < count; i++) {
-        regroup->order[start[regroup->key[i] >> shift]++] = (uint16_t)i;
+        a[i] = regroup->a[rays[i]];
+        b[i] = regroup->b[rays[i]];
     }
-}
-
-/* How wide packets are in the order that there is, beside what they would be if all of them
- * together paved the rectangle of all rays. */
-static float packet_width(const GiRegroup *regroup, int count) {
-    int packets = count / GI_PACKET_SIZE;
-    float sum = 0, low_a = INFINITY, high_a = -INFINITY, low_b = INFINITY, high_b = -INFINITY;
-    for (int i = 0; i < packets * GI_PACKET_SIZE; i += GI_PACKET_SIZE) {
-        float a0 = f_lowest(regroup->a + i, GI_PACKET_SIZE);
-        float a1 = f_highest(regroup->a + i, GI_PACKET_SIZE);
-        float b0 = f_lowest(regroup->b + i, GI_PACKET_SIZE);
-        float b1 = f_highest(regroup->b + i, GI_PACKET_SIZE);
-        sum += (a1 - a0) + (b1 - b0);
-        if (low_a > a0) low_a = a0;
-        if (high_a < a1) high_a = a1;
-        if (low_b > b0) low_b = b0;
-        if (high_b < b1) high_b = b1;
-    }
-    return sum / (sqrtf((float)packets) * ((high_a - low_a) + (high_b - low_b)));
-}
-
-static void keep_order(GiRegroup *regroup, int count) {
-    for (int i = 0; i < count; i++) regroup->order[i] = (uint16_t)i;
+    repeat_first(a, b, count);
+    const Turn turn = pack(regroup, a, b, count, GI_PACKET_SIZE, order);
+    for (int i = 0; i < count; i++) regroup->order[begin + i] = rays[order[i]];
+    const float *u = axes->u, *v = axes->v;
+    regroup->side[begin / GI_BUNDLE_SIZE] = gi_vec(turn.c * u[0] + turn.s * v[0],
+        turn.c * u[1] + turn.s * v[1], turn.c * u[2] + turn.s * v[2]);
 }
 
 static void GI_KERNEL(regroup)(
-    GiRegroup *regroup, const float *x, const float *y, const float *z, int count, bool large) {
-    if (count <= KEEP_ORDER) {
-        keep_order(regroup, count);
+    GiRegroup *regroup, const float *x, const float *y, const float *z, int count, double leaves) {
+    uint16_t *bundles = regroup->bundles;
+    const Axes axes = axes_of(x, y, z, count);
+    if (order_serves(&axes, x, y, z, count, leaves)) {
+        for (int i = 0; i < count; i++) regroup->order[i] = (uint16_t)i;
+        for (int i = 0; i < count; i += GI_BUNDLE_SIZE) {
+            regroup->side[i / GI_BUNDLE_SIZE] = gi_vec(0, 0, 0);
+        }
         return;
     }
-    project(regroup, x, y, z, count);
-    if (large && packet_width(regroup, count) < GOOD_WIDTH) {
-        keep_order(regroup, count);
-        return;
+    project(&axes, x, y, z, count, regroup->a, regroup->b);
+    if (count > GI_BUNDLE_SIZE) {
+        repeat_first(regroup->a, regroup->b, count);
+        pack(regroup, regroup->a, regroup->b, count, GI_BUNDLE_SIZE, bundles);
+    } else {
+        for (int i = 0; i < count; i++) bundles[i] = (uint16_t)i;
     }
-    if (!regroup->drawn) draw_curve(regroup->curve);
-    regroup->drawn = true;
-    align(regroup, count);
-    for (int i = 0; i < count; i++) regroup->key[i] = 0;
-    rank(regroup, regroup->a, count, RANKS);
-    rank(regroup, regroup->b, count, 1);
-    for (int i = 0; i < count; i++) regroup->key[i] = regroup->curve[regroup->key[i]];
-    sort_by_key(regroup, count);
+    for (int begin = 0; begin < count; begin += GI_BUNDLE_SIZE) {
+        int rest = count - begin < GI_BUNDLE_SIZE ? count - begin : GI_BUNDLE_SIZE;
+        pack_bundle(regroup, &axes, bundles + begin, rest, begin);
+    }
 }

@@ -208,7 +208,10 @@ static inline void prefetch_child(const GiTree *tree, const GiShapes *shapes, ui
     }
     prefetch(from);
     prefetch(from + 64);
-    if (kind == GI_CHILD_TRIANGLES) return; /* eight rows of twelve bytes */
+    if (kind == GI_CHILD_TRIANGLES) { /* eight rows of twelve bytes */
+        prefetch(from + 95);
+        return;
+    }
     prefetch(from + 128);
     prefetch(from + 192);
 }

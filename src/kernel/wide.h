@@ -113,43 +113,36 @@ static inline F f_fused(F a, F b, F c) { return a * b + c; }
 static inline unsigned f_less_equal(F a, F b) { return a <= b; }
 #endif
 
-/* The smallest and the largest of count numbers, a multiple of sixteen. */
-#if defined(GI_IS_AVX512)
-static inline float f_lowest(const float *p, int count) {
-    __m512 least = _mm512_loadu_ps(p);
-    for (int i = 16; i < count; i += 16) least = _mm512_min_ps(_mm512_loadu_ps(p + i), least);
-    return _mm512_reduce_min_ps(least);
-}
-static inline float f_highest(const float *p, int count) {
-    __m512 most = _mm512_loadu_ps(p);
-    for (int i = 16; i < count; i += 16) most = _mm512_max_ps(_mm512_loadu_ps(p + i), most);
-    return _mm512_reduce_max_ps(most);
-}
+/* The smallest and the largest of the lanes. */
+#if defined(GI_IS_PORTABLE)
+static inline float f_least(F a) { return a; }
+static inline float f_most(F a) { return a; }
 #else
-/* Lane by lane, halves against each other. */
+#if defined(GI_IS_SSE2)
+#define F_FOLD(op, a) (a)
+#else
+#define F_FOLD(op, a) op(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1))
+#endif
+#define F_REDUCE(op, a)                                                                            \
+    __m128 four = F_FOLD(op, a), two = op(four, _mm_movehl_ps(four, four));                        \
+    return _mm_cvtss_f32(op(two, _mm_shuffle_ps(two, two, 1)))
+static inline float f_least(F a) { F_REDUCE(_mm_min_ps, a); }
+static inline float f_most(F a) { F_REDUCE(_mm_max_ps, a); }
+#undef F_REDUCE
+#undef F_FOLD
+#endif
+
+/* The same of count numbers, a multiple of sixteen. */
 static inline float f_lowest(const float *p, int count) {
     F least = f_load(p);
     for (int i = GI_FLOATS; i < count; i += GI_FLOATS) least = f_min(f_load(p + i), least);
-    float lane[GI_FLOATS];
-    f_store(lane, least);
-    for (int half = GI_FLOATS / 2; half > 0; half /= 2) {
-        for (int i = 0; i < half; i++)
-            lane[i] = lane[i + half] < lane[i] ? lane[i + half] : lane[i];
-    }
-    return lane[0];
+    return f_least(least);
 }
 static inline float f_highest(const float *p, int count) {
     F most = f_load(p);
     for (int i = GI_FLOATS; i < count; i += GI_FLOATS) most = f_max(f_load(p + i), most);
-    float lane[GI_FLOATS];
-    f_store(lane, most);
-    for (int half = GI_FLOATS / 2; half > 0; half /= 2) {
-        for (int i = 0; i < half; i++)
-            lane[i] = lane[i + half] > lane[i] ? lane[i + half] : lane[i];
-    }
-    return lane[0];
+    return f_most(most);
 }
-#endif
 
 /* Sixteen numbers against one: bits of those where x <= p[i], and where p[i] <= x. */
 #if defined(GI_IS_AVX512)
@@ -604,8 +597,9 @@ enum { GI_DOUBLES = 4 };
 #define R_ABS(a)           _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
 static inline unsigned m_bits(M m) { return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(m)); }
 static inline M m_from_bytes(const uint8_t *p) {
-    return _mm256_set_epi64x(
-        -(long long)p[3], -(long long)p[2], -(long long)p[1], -(long long)p[0]);
+    int all;
+    memcpy(&all, p, sizeof all);
+    return _mm256_sub_epi64(_mm256_setzero_si256(), _mm256_cvtepu8_epi64(_mm_cvtsi32_si128(all)));
 }
 static inline R r_load(const double *p) { return _mm256_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm256_storeu_pd(p, a); }

@@ -75,18 +75,17 @@ void gi_lights_trace(const GiStage *stage, GiVec light) {
     GiBundle *bundle = &scratch->bundle;
     const GiPoints *points = &scratch->points;
     GiLit *lit = &scratch->lit;
-    /* Where shapes are a few pixels wide it takes less to test them against packets that are a
-     * little wide than to put rays in order. */
-    bool large = 4 * scratch->outlines < points->count && !scratch->shared;
-    stage->world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count, large);
+    const GiWorld *world = stage->world;
+    double leaves = (double)world->leaf_count * (1 + (double)world->spread.instances.count);
+    world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count, leaves);
     for (int begin = 0; begin < lit->count; begin += GI_BUNDLE_SIZE) {
         if (gi_stage_stopped(stage)) return;
         const uint16_t *order = scratch->regroup.order + begin;
         bundle->count = lit->count - begin < GI_BUNDLE_SIZE ? lit->count - begin : GI_BUNDLE_SIZE;
         bundle->apex = light;
-        bundle->side = gi_vec(0, 0, 0);
-        stage->world->kernel->shadows(points, lit, order, bundle);
-        stage->world->kernel->bundle_any(&stage->world->trace, bundle);
+        bundle->side = scratch->regroup.side[begin / GI_BUNDLE_SIZE];
+        world->kernel->shadows(points, lit, order, bundle);
+        world->kernel->bundle_any(&world->trace, bundle);
         for (int i = 0; i < bundle->count; i++) {
             lit->arrives[bundle->pixel[i]] = bundle->shape[i] == GI_SHAPE_NONE;
         }

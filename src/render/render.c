@@ -81,7 +81,7 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
  * a core's cache, it is better that a tile's own numbers stay there too. And many tiles share out
  * better: at least sixteen for every worker. */
 static int tile_side(const GiWorld *world, const GiRenderArea *area, size_t workers) {
-    const size_t large_tree = 2 << 20;
+    const size_t large_tree = 4 << 20;
     double pixels = (double)area->crop_width * area->crop_height;
     int side = world->tree_bytes > large_tree ? GI_TILE_SIDE_LIMIT : GI_TILE_SIDE_LIMIT / 2;
     while (side > GI_RENDER_TILE_LEAST && pixels < 16.0 * (double)workers * side * side) side /= 2;

@@ -79,16 +79,6 @@ static void reorder_kind(
     gi_memory_free(memory, order.place, place_size);
 }
 
-#define REORDER(kind, array)                                                                       \
-    reorder_kind(scene, world, kind, (void **)&(array).data, (array).capacity, sizeof *(array).data)
-
-void gi_reorder(GiScene *scene, GiWorld *world) {
-    REORDER(GI_SHAPE_SPHERE, scene->spheres);
-    REORDER(GI_SHAPE_BOX, scene->boxes);
-    REORDER(GI_SHAPE_CONE, scene->cones);
-    REORDER(GI_SHAPE_DISC, scene->discs);
-}
-
 /* ---------------------------------------------------------------- triangles */
 
 /* Those without a place (there are few: triangles without area, or all when the mesh is nowhere)
@@ -134,4 +124,119 @@ bool gi_reorder_triangles(GiScene *scene, uint32_t *original, const uint32_t *pl
         }
     }
     return true;
+}
+
+/* ---------------------------------------------------------------- vertices */
+
+/* Numbers that vertices have, so many floats each. */
+typedef struct Numbers {
+    float *data; /* of the mesh's first vertex */
+    size_t width;
+} Numbers;
+
+/* The vertices of a mesh that its rows name, counted from `first`. */
+typedef struct Vertices {
+    uint32_t (*rows)[3]; /* those that begin with GI_SHAPE_NONE name none */
+    uint32_t row_count, first, count;
+    Numbers numbers[3];
+    int number_count;
+} Vertices;
+
+/* Names the vertices anew, by first use, and notes where each is to go. */
+static void place_vertices(const Vertices *vertices, uint32_t *place) {
+    uint32_t next = 0;
+    memset(place, 0xff, vertices->count * sizeof *place); /* GI_SHAPE_NONE */
+    for (uint32_t i = 0; i < vertices->row_count; i++) {
+        uint32_t *row = vertices->rows[i];
+        if (row[0] == GI_SHAPE_NONE) continue;
+        for (int k = 0; k < 3; k++) {
+            uint32_t *to = &place[row[k] - vertices->first];
+            if (*to == GI_SHAPE_NONE) *to = next++;
+            row[k] = vertices->first + *to;
+        }
+    }
+    for (uint32_t i = 0; i < vertices->count; i++) {
+        if (place[i] == GI_SHAPE_NONE) place[i] = next++;
+    }
+}
+
+static void move_numbers(
+    const Numbers *numbers, uint32_t count, const uint32_t *place, float *copy) {
+    size_t width = numbers->width;
+    memcpy(copy, numbers->data, count * width * sizeof *copy);
+    for (uint32_t i = 0; i < count; i++) {
+        float *to = numbers->data + place[i] * width;
+        for (size_t k = 0; k < width; k++) to[k] = copy[i * width + k];
+    }
+}
+
+static void reorder_vertices(GiMemory *memory, const Vertices *vertices) {
+    size_t place_size = vertices->count * sizeof(uint32_t);
+    size_t copy_size = vertices->count * sizeof(GiFloat3);
+    /* All memory first, so that a failure leaves everything as it was. */
+    uint32_t *place = gi_memory_allocate(memory, place_size);
+    float *copy = gi_memory_allocate(memory, copy_size);
+    if (place != NULL && copy != NULL) {
+        place_vertices(vertices, place);
+        for (int i = 0; i < vertices->number_count; i++) {
+            move_numbers(&vertices->numbers[i], vertices->count, place, copy);
+        }
+    }
+    gi_memory_free(memory, place, place_size);
+    gi_memory_free(memory, copy, copy_size);
+}
+
+/* Normals or texture coordinates: with the positions where they share their rows. False when there
+ * are not as many, so that they cannot trade places alike. */
+static bool take_numbers(GiMemory *memory, Vertices *vertices, Numbers numbers,
+    uint32_t (*own_rows)[3], uint32_t first, uint32_t count) {
+    if (own_rows != NULL) {
+        const Vertices own = {own_rows, vertices->row_count, first, count, {numbers}, 1};
+        reorder_vertices(memory, &own);
+        return true;
+    }
+    vertices->numbers[vertices->number_count++] = numbers;
+    return count == vertices->count;
+}
+
+/* What a leaf's triangles are made of comes to stand side by side. */
+static void reorder_mesh(GiScene *scene, size_t index) {
+    GiMeshStore *meshes = &scene->meshes;
+    const GiMesh *mesh = &meshes->meshes.data[index];
+    bool last = index + 1 == meshes->meshes.count;
+    size_t normal_end = last ? meshes->normals.count : mesh[1].first_normal;
+    size_t texcoord_end = last ? meshes->texcoords.count : mesh[1].first_texcoord;
+    Vertices vertices = {
+        .rows = meshes->corners.data + mesh->first_triangle,
+        .row_count = mesh->triangle_count,
+        .first = mesh->first_position,
+        .count = mesh->position_count,
+        .numbers = {{meshes->positions.data[mesh->first_position], 3}},
+        .number_count = 1,
+    };
+    bool alike = true;
+    if (mesh->smooth) {
+        Numbers normals = {meshes->normals.data[mesh->first_normal], 3};
+        alike &= take_numbers(scene->memory, &vertices, normals, mesh->normal_corners,
+            mesh->first_normal, (uint32_t)normal_end - mesh->first_normal);
+    }
+    if (mesh->textured) {
+        Numbers texcoords = {meshes->texcoords.data[mesh->first_texcoord], 2};
+        alike &= take_numbers(scene->memory, &vertices, texcoords, mesh->texcoord_corners,
+            mesh->first_texcoord, (uint32_t)texcoord_end - mesh->first_texcoord);
+    }
+    if (alike) reorder_vertices(scene->memory, &vertices);
+}
+
+/* ---------------------------------------------------------------- the whole */
+
+#define REORDER(kind, array)                                                                       \
+    reorder_kind(scene, world, kind, (void **)&(array).data, (array).capacity, sizeof *(array).data)
+
+void gi_reorder(GiScene *scene, GiWorld *world) {
+    REORDER(GI_SHAPE_SPHERE, scene->spheres);
+    REORDER(GI_SHAPE_BOX, scene->boxes);
+    REORDER(GI_SHAPE_CONE, scene->cones);
+    REORDER(GI_SHAPE_DISC, scene->discs);
+    for (size_t i = 0; i < scene->meshes.meshes.count; i++) reorder_mesh(scene, i);
 }

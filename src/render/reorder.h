@@ -5,8 +5,9 @@
 #include "render/world.h"
 
 /* Moves shapes that stand in one block next to each other, so that rays find them in few cache
- * lines, and changes the refs of blocks and placements accordingly. A shape keeps its document
- * order. Short of memory, a kind stays as it is: only speed is lost. */
+ * lines, and changes the refs of blocks and placements accordingly; likewise the vertices of a
+ * leaf's triangles, and their rows. A shape keeps its document order. Short of memory, a kind or a
+ * mesh stays as it is: only speed is lost. */
 void gi_reorder(GiScene *scene, GiWorld *world);
 
 /* Brings the triangles of every mesh to the places that the trees have given them (accel/tree.h),

@@ -77,7 +77,6 @@ struct GiTileScratch {
     uint32_t *head; /* for each shader, while points are sorted: the first of its rays */
     size_t shader_count;
     int segment_count;
-    int outlines;  /* how often a camera ray met another shape than the one before it */
     bool weighted; /* factors are in use */
     bool shared;   /* points may have a pixel in common, so light goes to the pixels at once */
     bool out_of_memory;

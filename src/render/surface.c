@@ -405,12 +405,9 @@ void gi_surface_bundle(const GiStage *stage) {
     GiTileScratch *scratch = stage->scratch;
     const GiBundle *bundle = &scratch->bundle;
     uint32_t next[GI_BUNDLE_SIZE], shaders[GI_BUNDLE_SIZE];
-    uint32_t last = GI_SHAPE_NONE;
     int shader_count = 0;
     for (uint32_t i = (uint32_t)bundle->count; i-- > 0;) {
         GiShapeRef shape = {bundle->shape[i]};
-        scratch->outlines += shape.bits != last;
-        last = shape.bits;
         if (shape.bits == GI_SHAPE_NONE) {
             GiVec direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]};
             scratch->color[bundle->pixel[i]] = background(stage, NULL, direction);

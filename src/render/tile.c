@@ -30,7 +30,6 @@ GiTileScratch *gi_tile_scratch_create(const GiWorld *world, const GiRenderTarget
         return NULL;
     }
     for (size_t i = 0; i < shader_count; i++) scratch->head[i] = GI_NONE;
-    scratch->regroup.drawn = false;
     return scratch;
 }
 
@@ -152,7 +151,6 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Gi
     GiTileScratch *scratch = stage->scratch;
     scratch->points.count = scratch->segment_count = 0;
     scratch->weighted = scratch->shared = false;
-    scratch->outlines = 0;
     memset(scratch->color, 0, (size_t)(extent->height * STRIDE) * sizeof *scratch->color);
     gi_tile_aim(stage, area, extent, offset_x, offset_y);
     for (int y = 0; y < extent->height; y += GI_BLOCK_SIDE) {
