@@ -54,7 +54,13 @@ void gi_machine_sleep(double seconds) {
 #if (defined(__x86_64__) || defined(__i386__)) && defined(__has_include)
 #if __has_include(<sys/platform/x86.h>)
 #include <sys/platform/x86.h>
-#define HAS(name, NAME) CPU_FEATURE_ACTIVE(NAME)
+
+/* CPU_FEATURE_ACTIVE, whose 1 << 31 (AVX512VL) is no int. */
+static bool active(unsigned feature) {
+    const struct cpuid_feature *leaf = __x86_get_cpuid_feature_leaf(feature / 128);
+    return leaf->active_array[feature % 128 / 32] >> feature % 32 & 1;
+}
+#define HAS(name, NAME) active(x86_cpu_##NAME)
 #elif defined(__GNUC__)
 #define HAS(name, NAME) __builtin_cpu_supports(name)
 #endif
