@@ -37,8 +37,8 @@ typedef struct GiTraceHit {
  *     closest   the rays start at the apex (camera rays)
  *     any       the rays end there: origin + direction is the apex, t_max at most 1 (shadow rays
  *               of a point light)
- * In: everything up to skip_instance. Out: shape (GI_SHAPE_NONE: nothing met) and, for closest,
- * instance and t. */
+ * In: everything up to skip_instance; for closest, skip and skip_instance are GI_SHAPE_NONE. Out:
+ * shape (GI_SHAPE_NONE: nothing met) and, for closest, instance and t. */
 typedef struct GiBundle {
     _Alignas(64) double ox[GI_BUNDLE_ROOM];
     double oy[GI_BUNDLE_ROOM], oz[GI_BUNDLE_ROOM];
