@@ -24,6 +24,7 @@ static GiVec read_vec(const GiTapeEntry *numbers, int count) {
 }
 
 void gi_tape_play(GiReader *reader, const GiTape *tape) {
+    if (tape->entries.count == 0) return; /* of an empty file there may be no bytes either */
     const char *bytes = (const char *)reader->window.data + (tape->begin - reader->window.base);
     const GiTapeEntry *entry = tape->entries.data, *end = entry + tape->entries.count;
     while (entry < end && !reader->stopped) {
