@@ -61,27 +61,20 @@ static bool ask(const void *control) { return stopped(control); }
 
 /* The rays of a parallel camera have no point in common. */
 static void trace_apart(const GiStage *stage) {
-    enum { TOGETHER = GI_BUNDLE_SIZE };
     const GiWorld *world = stage->world;
     GiBundle *bundle = &stage->scratch->bundle;
-    GiTraceRay rays[TOGETHER];
-    GiTraceHit hits[TOGETHER];
-    for (int i = 0; i < bundle->count; i++) bundle->shape[i] = GI_SHAPE_NONE;
-    for (int begin = 0; begin < bundle->count; begin += TOGETHER) {
-        if (gi_stage_stopped(stage)) return;
-        int count = bundle->count - begin < TOGETHER ? bundle->count - begin : TOGETHER;
-        for (int i = 0; i < count; i++) {
-            int k = begin + i;
-            rays[i] = (GiTraceRay){{bundle->ox[k], bundle->oy[k], bundle->oz[k]},
-                {bundle->dx[k], bundle->dy[k], bundle->dz[k]}, bundle->t_min[k], bundle->t_max[k],
-                bundle->skip[k], bundle->skip_instance[k]};
-        }
-        world->kernel->many_closest(&world->trace, rays, count, hits);
-        for (int i = 0; i < count; i++) {
-            bundle->shape[begin + i] = hits[i].shape.bits;
-            bundle->t[begin + i] = hits[i].t;
-            bundle->instance[begin + i] = hits[i].instance;
-        }
+    GiTraceRay rays[GI_BUNDLE_SIZE];
+    GiTraceHit hits[GI_BUNDLE_SIZE];
+    for (int i = 0; i < bundle->count; i++) {
+        rays[i] = (GiTraceRay){{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
+            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
+            bundle->skip[i], bundle->skip_instance[i]};
+    }
+    world->kernel->many_closest(&world->trace, rays, bundle->count, hits);
+    for (int i = 0; i < bundle->count; i++) {
+        bundle->shape[i] = hits[i].shape.bits;
+        bundle->t[i] = hits[i].t;
+        bundle->instance[i] = hits[i].instance;
     }
 }
 
