@@ -89,7 +89,7 @@ typedef struct GiKernel {
         const GiPoints *points, const GiLit *lit, const uint16_t *order, GiBundle *bundle);
     /* Adds what arrives to what the points show. */
     void (*add)(const GiLit *lit, GiPoints *points);
-    GiGammaFn encode;
+    GiGammaFn encode; /* as gi_gamma_encode */
     /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT; leaves: of the scene's
      * trees. */
     void (*regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z, int count,

@@ -301,13 +301,6 @@ static inline void eight_fill(uint32_t *to, uint32_t value) {
     _mm256_storeu_si256((__m256i *)(void *)to, _mm256_set1_epi32((int)value));
 }
 
-/* Bits of those of eight that equal value. */
-static inline unsigned eight_equal(uint32_t value, const void *p) {
-    __m256i all = _mm256_loadu_si256((const __m256i *)p);
-    __m256i equal = _mm256_cmpeq_epi32(all, _mm256_set1_epi32((int)value));
-    return (unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(equal));
-}
-
 /* Bits of those of eight whose highest four bits are those of value. */
 static inline unsigned eight_of_kind(uint32_t value, const void *p) {
     __m256i all = _mm256_loadu_si256((const __m256i *)p);
@@ -541,7 +534,6 @@ enum { GI_DOUBLES = 8 };
 static inline unsigned m_bits(M m) { return m; }
 static inline R r_load(const double *p) { return _mm512_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm512_storeu_pd(p, a); }
-static inline double r_maximum(R a) { return _mm512_reduce_max_pd(a); }
 static inline void r_store_floats(float *p, R a) { _mm256_storeu_ps(p, _mm512_cvtpd_ps(a)); }
 static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
     _mm256_mask_storeu_epi32(p, (__mmask8)bits, _mm256_set1_epi32((int)value));
@@ -553,9 +545,6 @@ static inline R r_gather(const double *p, const uint32_t *index, int stride) {
     return _mm512_i32gather_pd(_mm256_mullo_epi32(all, _mm256_set1_epi32(stride)), p, 8);
 }
 /* Writes the lanes whose bits are set one after the other; there must be room for all. */
-static inline void r_append(double *to, R a, unsigned bits) {
-    _mm512_storeu_pd(to, _mm512_maskz_compress_pd((__mmask8)bits, a));
-}
 static inline void r_append_floats(float *to, R a, unsigned bits) {
     _mm256_storeu_ps(to, _mm256_maskz_compress_ps((__mmask8)bits, _mm512_cvtpd_ps(a)));
 }
@@ -676,24 +665,9 @@ static inline R r_gather(const double *p, const uint32_t *index, int stride) {
 #endif
 
 #ifndef GI_IS_AVX512
-static inline double r_maximum(R a) {
-    double lane[GI_DOUBLES];
-    r_store(lane, a);
-    double largest = lane[0];
-    for (int i = 1; i < GI_DOUBLES; i++) largest = largest > lane[i] ? largest : lane[i];
-    return largest;
-}
 static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
     for (int i = 0; i < GI_DOUBLES; i++) {
         if (bits >> i & 1) p[i] = value;
-    }
-}
-static inline void r_append(double *to, R a, unsigned bits) {
-    double lane[GI_DOUBLES];
-    r_store(lane, a);
-    for (int i = 0; i < GI_DOUBLES; i++) {
-        *to = lane[i];
-        to += bits >> i & 1;
     }
 }
 static inline void r_append_floats(float *to, R a, unsigned bits) {
