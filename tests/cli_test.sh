@@ -227,13 +227,25 @@ run 0 --version
 check "version" grep -Eq '^glint [0-9]+\.[0-9]+\.[0-9]+$' out
 run 0 --help
 silent "help"
-lines=$(wc -l <out)
-check "help fits a screen" test "$lines" -ge 24 -a "$lines" -le 40
-check "help has 80 columns" test -z "$(awk 'length > 80' out)"
+cp out overview
+verbs=$(sed -n 's/^  \([a-z]*\) .*/\1/p' overview | grep -v '^glint$')
+for verb in '' $verbs; do
+    # shellcheck disable=SC2086 # none or one
+    run 0 $verb --help
+    lines=$(wc -l <out)
+    check "help $verb fits a screen" test "$lines" -ge 8 -a "$lines" -le 40
+    check "help $verb has 80 columns" test -z "$(awk 'length > 80' out)"
+    # shellcheck disable=SC2086
+    run 0 $verb --help=man
+    check "man $verb has its parts" test "$(grep -c '^\.SH' out)" -ge 6
+done
+check "render is a verb" grep -q '^  render ' overview
 for form in man markdown; do
     run 0 --help=$form
     check "$form tells of --crop" grep -q crop out
 done
+run 2 rendr a.xml
+says "did you mean 'glint render'?"
 run 2 --help=html
 
 # ---- numbers
