@@ -62,6 +62,7 @@ GlintStatus glint_scene_create(const GlintSceneDesc *desc, GlintScene **result, 
     scene->thread_count = desc->thread_count;
     scene->diagnostic = desc->diagnostic;
     scene->diagnostic_user = desc->diagnostic_user;
+    scene->keeps_sources = desc->keep_sources;
     scene->stats.isa = kernel->name;
     if (!gi_scene_init(&scene->model, &scene->memory)) {
         glint_scene_destroy(scene);
@@ -76,6 +77,7 @@ void glint_scene_destroy(GlintScene *scene) {
     gi_world_reset(&scene->world, &scene->memory);
     gi_pool_destroy(scene->pool);
     gi_scene_reset(&scene->model);
+    if (scene->sources.memory != NULL) gi_sources_reset(&scene->sources);
     GI_ASSERT(atomic_load(&scene->memory.used) == 0);
     GlintAllocator allocator = scene->memory.allocator;
     allocator.reallocate(allocator.user, scene, sizeof *scene, 0);
@@ -98,6 +100,11 @@ static GlintStatus load(GlintScene *scene, GiReaderSource *source, GlintError *e
     source->diagnostic_user = scene->diagnostic_user;
     source->dialect = scene->dialect;
     source->thread_count = scene->thread_count;
+    if (scene->keeps_sources) {
+        scene->broken = !gi_sources_init(&scene->sources, &scene->memory, source->name);
+        if (scene->broken) return gi_error_memory(error);
+        source->sources = &scene->sources;
+    }
     double start = gi_machine_seconds();
     GiReaderResult result = {0};
     GlintStatus status = gi_reader_load(&scene->model, source, &result, error);
@@ -216,6 +223,12 @@ GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, G
     stats->tree_bytes = world->tree_bytes;
     stats->sah_cost = world->store.sah_cost;
     return GLINT_OK;
+}
+
+bool glint_scene_source(
+    GlintScene *scene, GlintObjectKind kind, uint32_t index1, GlintSource *source) {
+    GI_ASSERT(scene != NULL && source != NULL && (unsigned)kind < GLINT_OBJECT_KIND_COUNT);
+    return gi_sources_find(&scene->sources, kind, index1, source);
 }
 
 void glint_scene_info(const GlintScene *scene, GlintSceneInfo *info) {

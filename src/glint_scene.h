@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "reader/source.h"
 #include "render/render.h"
 #include "sched/pool.h"
 
@@ -16,6 +17,8 @@ struct GlintScene {
     int thread_count;
     GlintDiagnosticFn diagnostic;
     void *diagnostic_user;
+    bool keeps_sources;
+    GiSources sources;      /* of what a file has brought; all zero otherwise */
     bool committed, broken; /* broken: a load or commit failed */
     GlintStats stats;
 };

@@ -181,7 +181,9 @@ typedef struct GlintSceneDesc {
     const GlintAllocator *allocator; /* null (default): the C library's; copied */
     GlintDiagnosticFn diagnostic;    /* null (default): findings go only to GlintError */
     void *diagnostic_user;
-    int cookie; /* private */
+    bool keep_sources; /* false (default); true: glint_scene_source answers. The scene file then
+                          stays in memory */
+    int cookie;        /* private */
 } GlintSceneDesc;
 
 GLINT_API GlintSceneDesc glint_scene_desc_default(void);
@@ -211,6 +213,27 @@ GLINT_API GlintStatus glint_scene_load_memory(GlintScene *scene, const void *byt
 typedef int64_t (*GlintReadFn)(void *user, void *buffer, size_t size);
 GLINT_API GlintStatus glint_scene_load_stream(GlintScene *scene, GlintReadFn read, void *user,
     const char *name, const GlintMonitor *monitor, GlintError *error);
+
+/* What of a scene stands in a place of its file. */
+typedef enum GlintObjectKind {
+    GLINT_OBJECT_SURFACE, /* by GlintSurfaceId */
+    GLINT_OBJECT_LIGHT,   /* the k-th, in the order of the scene */
+    GLINT_OBJECT_SHADER,  /* by GlintShaderId */
+    GLINT_OBJECT_CAMERA,  /* the k-th; the last one counts */
+    GLINT_OBJECT_KIND_COUNT
+} GlintObjectKind;
+
+typedef struct GlintSource {
+    const char *path;     /* as given to the load function */
+    const char *name;     /* its name attribute; "" for none */
+    int64_t line, column; /* of its start tag, from 1, in characters */
+} GlintSource;
+
+/* Where an object stands in the file that was loaded with keep_sources. index1 counts from 1.
+ * False: there is none, or its place is not known. The strings live as long as the scene. From one
+ * thread at a time. */
+GLINT_API bool glint_scene_source(
+    GlintScene *scene, GlintObjectKind kind, uint32_t index1, GlintSource *source);
 
 /* ---- by calls */
 

@@ -59,7 +59,8 @@ static void slide_window(GiReader *reader, size_t more) {
     GiWindow *window = &reader->window;
     int64_t keep = parsed_end(reader) - GI_WINDOW_KEEP;
     size_t room = window->capacity - window->size;
-    if (room >= more || keep - window->base < GI_WINDOW_KEEP) return;
+    bool whole = reader->source->sources != NULL;
+    if (whole || room >= more || keep - window->base < GI_WINDOW_KEEP) return;
     gi_report_capture(&reader->report, window_end(reader) - GI_WINDOW_CONTEXT);
     locate_places(reader);
     gi_window_discard(window, keep);
@@ -245,6 +246,10 @@ GlintStatus gi_reader_load(
     }
     if (status == GLINT_OK) scene->dialect = dialect;
     if (result != NULL) result->byte_count = feed.total;
+    if (source->sources != NULL) {
+        source->sources->window = reader->window;
+        gi_window_init(&reader->window, reader->memory);
+    }
     close_reader(reader);
     gi_memory_free(scene->memory, reader, sizeof *reader);
     return status;
