@@ -5,6 +5,7 @@
 #include "glint/glint.h"
 
 #include "base/assert.h"
+#include "check/check.h"
 #include "base/cookie.h"
 #include "base/error.h"
 #include "port/file.h"
@@ -223,6 +224,22 @@ GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, G
     stats->tree_bytes = world->tree_bytes;
     stats->sah_cost = world->store.sah_cost;
     return GLINT_OK;
+}
+
+/* A check draws pictures so small that few workers are of use. */
+GlintStatus glint_scene_check(GlintScene *scene, const GlintMonitor *monitor, GlintError *error) {
+    enum { JOBS = 16 };
+    if (scene == NULL) return ARGUMENT(error, "scene is null");
+    if (!scene->committed) return ARGUMENT(error, "the scene is not committed");
+    GlintStatus status = need_workers(scene, JOBS, error);
+    if (status != GLINT_OK) return status;
+    const GiCheckInput input = {.world = &scene->world,
+        .pool = scene->pool,
+        .sources = &scene->sources,
+        .monitor = monitor,
+        .diagnostic = scene->diagnostic,
+        .diagnostic_user = scene->diagnostic_user};
+    return gi_check(&input, error);
 }
 
 bool glint_scene_source(

@@ -78,7 +78,11 @@ typedef struct GlintError {
 /* What the status says, for example "not enough memory". Never null. */
 GLINT_API const char *glint_status_text(GlintStatus status);
 
-typedef enum GlintSeverity { GLINT_SEVERITY_ERROR, GLINT_SEVERITY_WARNING } GlintSeverity;
+typedef enum GlintSeverity {
+    GLINT_SEVERITY_ERROR,
+    GLINT_SEVERITY_WARNING, /* legal, but surely a mistake */
+    GLINT_SEVERITY_NOTE     /* may well be meant */
+} GlintSeverity;
 
 /* One finding in a scene file. Loading reports all of them, not just the first. */
 typedef struct GlintDiagnostic {
@@ -90,13 +94,16 @@ typedef struct GlintDiagnostic {
     const char *excerpt; /* the line, cut to a window round the place; null when there is none */
     int caret;           /* index into excerpt, in characters, of the place */
     int caret_length;    /* at least 1 */
+    const char *rule;    /* the name of its GlintRule; null: none */
+    const char *hint;    /* how to mend it: one sentence without a full stop; null: nothing */
 } GlintDiagnostic;
 
 typedef void (*GlintDiagnosticFn)(void *user, const GlintDiagnostic *diagnostic);
 
 /* Writes the diagnostic the way a compiler prints it, "path:line:column: error: message", the
- * excerpt and a caret under the place, each line ended by a newline. At most size bytes are
- * written, always zero-terminated when size > 0. Returns the length without the cut. */
+ * excerpt and a caret under the place, then the hint, each line ended by a newline. Warnings and
+ * notes end with their rule in brackets. At most size bytes are written, always zero-terminated
+ * when size > 0. Returns the length without the cut. */
 GLINT_API size_t glint_diagnostic_format(
     const GlintDiagnostic *diagnostic, char *buffer, size_t size);
 
@@ -511,6 +518,29 @@ typedef struct GlintStats {
 } GlintStats;
 
 GLINT_API void glint_scene_stats(const GlintScene *scene, GlintStats *stats);
+
+/* ---------------------------------------------------------------- checks */
+
+/* What a finding is an instance of. docs/check.md has an example of each. */
+typedef struct GlintRule {
+    const char *name; /* "light-inside-solid": never changes its meaning */
+    GlintSeverity severity;
+    const char *summary; /* what is found: one sentence, with its full stop */
+    const char *help;    /* why it is told, and what to do: sentences */
+} GlintRule;
+
+/* Every rule, those of errors first; null behind the last. Lives for ever. */
+GLINT_API const GlintRule *glint_rule_at(int index);
+
+/* Looks for what is legal in a committed scene but surely a mistake, and reports it through the
+ * scene's diagnostic callback, on this thread, in the order of the file: warnings and notes, never
+ * errors. Load the scene with keep_sources, or findings have no place. Of each rule the first ten
+ * findings are told and the others counted, in one more without a place. For some rules a few small
+ * pictures are drawn. Takes
+ * milliseconds, with a hundred thousand surfaces a second or two. Not while the scene is drawn.
+ * monitor may be null. Errors: ARGUMENT (the scene is not committed), MEMORY, THREAD, CANCELLED. */
+GLINT_API GlintStatus glint_scene_check(
+    GlintScene *scene, const GlintMonitor *monitor, GlintError *error);
 
 /* ---------------------------------------------------------------- pictures */
 
