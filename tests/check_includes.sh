@@ -8,7 +8,7 @@ set -u
 cd "${1:-$(dirname "$0")/..}" || exit 3
 
 # Room: the rooms that it may see besides itself, base, math and the public header.
-all='check sample light texture mesh render reader scene image accel kernel shape shade camera sched port'
+all='sample light texture mesh render reader scene image accel kernel shape shade camera sched port'
 plan="
 base:
 math:
@@ -28,7 +28,7 @@ camera: scene
 reader: scene mesh shape light texture port
 render: sample light texture shade camera kernel accel image sched scene shape port
 check: render reader accel camera kernel scene shape light mesh texture sched
-glint.c: $all glint_scene.h
+glint.c: $all check glint_scene.h
 glint_build.c: $all glint_scene.h
 glint_scene.h: $all
 "

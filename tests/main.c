@@ -52,6 +52,7 @@
     X(load) \
     X(life) \
     X(exr) \
+    X(check) \
     X(elements) \
     X(files) \
     X(triangle)
