@@ -18,6 +18,10 @@ typedef struct CliJobs {
  * what is wrong; with CLI_INPUT the jobs that are right can still be done. */
 CliStatus cli_jobs_init(CliJobs *jobs, const CliOperands *scenes, const char *output);
 
+/* The same for pictures whose names end otherwise, unless output names one: ".normal.png". */
+CliStatus cli_jobs_init_ending(
+    CliJobs *jobs, const CliOperands *scenes, const char *output, const char *ending);
+
 /* The same of what draws no picture: the jobs have none. */
 CliStatus cli_jobs_init_plain(CliJobs *jobs, const CliOperands *scenes);
 void cli_jobs_reset(CliJobs *jobs);

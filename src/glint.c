@@ -11,6 +11,7 @@
 #include "port/file.h"
 #include "glint_scene.h"
 #include "image/image.h"
+#include "render/show.h"
 #include "port/machine.h"
 #include "reader/reader.h"
 
@@ -302,6 +303,12 @@ static GlintStatus plan_render(GlintScene *scene, const GlintRenderDesc *desc, G
     if (desc->light < -1 || desc->light > (int)scene->model.lights.count) {
         return ARGUMENT(error, "there is no such light");
     }
+    if ((unsigned)desc->show >= GLINT_SHOW_COUNT) return ARGUMENT(error, "no such thing to show");
+    bool outputs = desc->depth != NULL || desc->normal != NULL || desc->albedo != NULL ||
+                   desc->surface != NULL || desc->light != 0;
+    if (desc->show != GLINT_SHOW_PICTURE && outputs) {
+        return ARGUMENT(error, "what is shown has no light and no outputs beside the pixels");
+    }
     *target = (GiRenderTarget){
         .samples = desc->samples != 0 ? desc->samples : scene->model.samples,
         .depth = desc->depth,
@@ -316,15 +323,35 @@ static GlintStatus plan_render(GlintScene *scene, const GlintRenderDesc *desc, G
     return need_workers(scene, across * down, error);
 }
 
+static void end_render(GlintScene *scene, double start, const GiRenderCounts *counts) {
+    scene->stats.trace_seconds = gi_machine_seconds() - start;
+    scene->stats.camera_rays = counts->camera_rays;
+    scene->stats.shadow_rays = counts->shadow_rays;
+    scene->stats.other_rays = counts->other_rays;
+}
+
 static GlintStatus render(GlintScene *scene, const GiRenderArea *area, const GlintMonitor *monitor,
     const GiRenderTarget *target, GlintError *error) {
     double start = gi_machine_seconds();
     GiRenderCounts counts = {0};
     GlintStatus status = gi_render(&scene->world, scene->pool, area, monitor, target, &counts);
-    scene->stats.trace_seconds = gi_machine_seconds() - start;
-    scene->stats.camera_rays = counts.camera_rays;
-    scene->stats.shadow_rays = counts.shadow_rays;
-    scene->stats.other_rays = counts.other_rays;
+    end_render(scene, start, &counts);
+    return status == GLINT_OK ? status
+                              : gi_error_set(error, status, "%s", glint_status_text(status));
+}
+
+/* Something else than the picture. */
+static GlintStatus show(GlintScene *scene, const GiRenderArea *area, const GlintRenderDesc *desc,
+    float *pixels, GlintError *error) {
+    double start = gi_machine_seconds();
+    GiRenderCounts counts;
+    int samples = desc->samples != 0 ? desc->samples : 1;
+    GiShow shown = {.what = desc->show, .samples = samples, .color = pixels};
+    GlintStatus status = gi_show(&scene->world, scene->pool, area, desc->monitor, &shown, &counts);
+    end_render(scene, start, &counts);
+    bool has_range = desc->show == GLINT_SHOW_DEPTH || desc->show == GLINT_SHOW_COST;
+    if (desc->shown_range != NULL && has_range)
+        memcpy(desc->shown_range, shown.range, sizeof shown.range);
     return status == GLINT_OK ? status
                               : gi_error_set(error, status, "%s", glint_status_text(status));
 }
@@ -336,6 +363,9 @@ GlintStatus glint_render(
     GiRenderTarget target;
     GlintStatus status = plan_render(scene, desc, &area, &target, error);
     if (status != GLINT_OK) return status;
+    if (desc->show != GLINT_SHOW_PICTURE) {
+        return show(scene, &area, desc, pixels, error);
+    }
     target.color = pixels;
     return render(scene, &area, desc->monitor, &target, error);
 }
@@ -387,7 +417,7 @@ GlintStatus glint_render_save(GlintScene *scene, const GlintRenderDesc *desc, co
     if (status == GLINT_OK) status = glint_image_check_path(path, error);
     if (status != GLINT_OK) return status;
     GiFileWriter file;
-    if (gi_image_is_png(path) && save->layer_count == 0 &&
+    if (gi_image_is_png(path) && desc->show == GLINT_SHOW_PICTURE && save->layer_count == 0 &&
         gi_file_write_begin_hidden(&file, path)) {
         return save_meanwhile(scene, &area, &target, desc->monitor, save, &file, error);
     }

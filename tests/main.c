@@ -53,6 +53,7 @@
     X(life) \
     X(exr) \
     X(check) \
+    X(show) \
     X(elements) \
     X(files) \
     X(triangle)

@@ -452,6 +452,24 @@ typedef enum GlintSampling {
     GLINT_SAMPLING_RANDOM /* plain random numbers: noisier, to compare with */
 } GlintSampling;
 
+/* What pixels show: the picture, or something that explains it. The values are those that the
+ * picture is made of. They are found by one ray through the middle of each pixel, whatever the
+ * samples; the cost is that of as many samples as the desc asks for, 0: of one. light, and the
+ * outputs beside the pixels, must be left alone.
+ * docs/show.md has pictures. */
+typedef enum GlintShow {
+    GLINT_SHOW_PICTURE,
+    GLINT_SHOW_NORMAL, /* (normal + 1) / 2, as RGBNormals has it */
+    GLINT_SHOW_DEPTH,  /* distance from the ray's origin: near white, far black */
+    GLINT_SHOW_UV,     /* texture coordinates as red and green; blue where there are none */
+    GLINT_SHOW_ID,     /* a colour for each surface */
+    GLINT_SHOW_COST,   /* nodes, leaves and exact tests of all rays of the pixel, traced one by one;
+                          with a legend. The same on every machine */
+    GLINT_SHOW_SHADOW, /* the part of the lights with a place or direction that the point faces and
+                          nothing hides: all white, none black */
+    GLINT_SHOW_COUNT
+} GlintShow;
+
 typedef struct GlintRenderDesc {
     int width, height;           /* 0 (default): the scene's */
     int crop_x, crop_y;          /* top left corner of the part to draw; 0 */
@@ -471,6 +489,9 @@ typedef struct GlintRenderDesc {
     uint32_t *surface; /* GlintSurfaceId of the first sample's surface; 0: none */
     GlintSampling sampling;      /* SOBOL */
     const GlintMonitor *monitor; /* null */
+    GlintShow show;              /* PICTURE */
+    double *shown_range; /* null (default), or where to put two numbers: of DEPTH the distances that
+                          * are white and black, of COST 0 and what is white */
     int cookie;
 } GlintRenderDesc;
 
