@@ -225,6 +225,19 @@ GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, G
     return GLINT_OK;
 }
 
+bool glint_scene_file(const GlintScene *scene, int index, GlintSceneFile *file) {
+    GI_ASSERT(scene != NULL && file != NULL && index >= 0);
+    const GiScene *model = &scene->model;
+    if ((size_t)index >= model->files.count) return false;
+    const GiSceneFile *found = &model->files.data[index];
+    *file = (GlintSceneFile){.kind = found->kind,
+        .name = model->file_names.data + found->name,
+        .path = model->file_names.data + found->path,
+        .size = found->size,
+        .digest = found->digest};
+    return true;
+}
+
 bool glint_scene_source(
     GlintScene *scene, GlintObjectKind kind, uint32_t index1, GlintSource *source) {
     GI_ASSERT(scene != NULL && source != NULL && (unsigned)kind < GLINT_OBJECT_KIND_COUNT);

@@ -235,6 +235,28 @@ typedef struct GlintSource {
 GLINT_API bool glint_scene_source(
     GlintScene *scene, GlintObjectKind kind, uint32_t index1, GlintSource *source);
 
+/* The files that a scene is made of. */
+typedef enum GlintFileKind {
+    GLINT_FILE_SCENE,
+    GLINT_FILE_MESH,
+    GLINT_FILE_TEXTURE,
+    GLINT_FILE_ENVIRONMENT
+} GlintFileKind;
+
+typedef struct GlintSceneFile {
+    GlintFileKind kind;
+    const char
+        *name; /* as the scene calls it; of the scene itself: as given to the load function */
+    const char *path; /* as it was opened; a stream's or memory's is its name */
+    uint64_t size;    /* bytes when it was read; 0 of what was no regular file */
+    uint64_t digest;  /* CRC-64/XZ of its content; 0 likewise */
+} GlintSceneFile;
+
+/* The scene's own file is the first (index 0), the others follow in the order in which they were
+ * loaded, each once; also after a load that failed, when these are the files that were found.
+ * False, and *file untouched, behind the last. The strings live as long as the scene. */
+GLINT_API bool glint_scene_file(const GlintScene *scene, int index, GlintSceneFile *file);
+
 /* ---- by calls */
 
 /* How light is gathered; docs/scene-format.md, integrators. */
