@@ -187,11 +187,7 @@ CliStatus cli_jobs_init_plain(CliJobs *jobs, const CliOperands *scenes) {
     return status;
 }
 
-CliStatus cli_jobs_init(CliJobs *jobs, const CliOperands *scenes, const char *output) {
-    return cli_jobs_init_ending(jobs, scenes, output, ".png");
-}
-
-CliStatus cli_jobs_init_ending(
+CliStatus cli_jobs_init(
     CliJobs *jobs, const CliOperands *scenes, const char *output, const char *ending) {
     CliStatus status = cli_jobs_init_plain(jobs, scenes);
     if (status < CLI_USAGE && jobs->count > 0) {

@@ -31,7 +31,8 @@ typedef struct CliRenderOptions {
     const char *picture_ending; /* of a picture that is not named: ".png", ".normal.png" */
     CliStatsFormat stats;
     bool quiet, list_isa;
+    bool embed; /* the scene and its files into the PNG */
 } CliRenderOptions;
 
-enum { CLI_RENDER_OPTION_COUNT = 12 };
+enum { CLI_RENDER_OPTION_COUNT = 13 };
 extern const CliOption cli_render_option_table[CLI_RENDER_OPTION_COUNT];

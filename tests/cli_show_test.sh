@@ -92,11 +92,12 @@ run 2 --show dept a.xml
 says "did you mean 'depth'?"
 run 2 --show light: a.xml
 run 2 --show depth --layers normal a.xml
+run 2 --show depth --embed a.xml
 
 # ---- the commands of the documentation
 mkdir -p docs/show
 ln -s "$source/scenes" scenes
-sed -n 's/^glint \(--show .*\)$/\1/p' "$source/docs/show.md" >commands
+sed -n 's/^build\/glint \(--show .*\)$/\1/p' "$source/docs/show.md" >commands
 while IFS= read -r command; do
     # shellcheck disable=SC2086 # words
     run 0 $command

@@ -150,7 +150,7 @@ static void numbers_look_different(void) {
         CHECK(gi_largest(colors[i]) > 0.2);
         for (uint32_t k = 0; k < i; k++) {
             double apart = gi_length(gi_sub(colors[i], colors[k]));
-            CHECK(apart > (i - k < 5 ? 0.1 : 0.003));
+            CHECK(apart > (i - k < 5 ? 0.05 : 0.001));
         }
     }
 }
