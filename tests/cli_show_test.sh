@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# `glint --show`: names of pictures, lights by name, and the commands of docs/show.md.
+# `glint --show`: names of pictures, lights by name, and the commands of docs/views.md.
 #   cli_show_test.sh PATH/TO/glint [SOURCE]
 # Ends with "N passed, N failed".
 set -u
@@ -95,19 +95,19 @@ run 2 --show depth --layers normal a.xml
 run 2 --show depth --embed a.xml
 
 # ---- the commands of the documentation
-mkdir -p docs/show
+mkdir -p docs/views
 ln -s "$source/scenes" scenes
-sed -n 's/^build\/glint \(--show .*\)$/\1/p' "$source/docs/show.md" >commands
+sed -n 's/^build\/glint \(--show .*\)$/\1/p' "$source/docs/views.md" >commands
 while IFS= read -r command; do
     # shellcheck disable=SC2086 # words
     run 0 $command
 done <commands
-for picture in "$source"/docs/show/*.png; do
-    check "$picture is made by a command" test -s "docs/show/${picture##*/}"
-    check "$picture is shown" grep -qF "(show/${picture##*/})" "$source/docs/show.md"
+for picture in "$source"/docs/views/*.png; do
+    check "$picture is made by a command" test -s "docs/views/${picture##*/}"
+    check "$picture is shown" grep -qF "(views/${picture##*/})" "$source/docs/views.md"
 done
 run 0 --show depth --size 384x216 -o x.png scenes/solids.xml
-check "the range is the documented one" grep -qxFf err "$source/docs/show.md"
+check "the range is the documented one" grep -qxFf err "$source/docs/views.md"
 
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]

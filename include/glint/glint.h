@@ -478,7 +478,7 @@ typedef enum GlintSampling {
  * picture is made of. They are found by one ray through the middle of each pixel, whatever the
  * samples; the cost is that of as many samples as the desc asks for, 0: of one. light, and the
  * outputs beside the pixels, must be left alone.
- * docs/show.md has pictures. */
+ * docs/views.md has pictures. */
 typedef enum GlintShow {
     GLINT_SHOW_PICTURE,
     GLINT_SHOW_NORMAL, /* (normal + 1) / 2, as RGBNormals has it */
@@ -661,7 +661,8 @@ GLINT_API GlintStatus glint_image_encode_png(const GlintImage *image, const Glin
 
 /* The recipe of what glint_render would draw now, to be destroyed by the caller. with_files: with
  * the content of the scene and of all files that it names, for which it must have been loaded with
- * keep_sources. Errors: ARGUMENT, FILE (a file has changed since, or cannot be read), MEMORY. */
+ * keep_sources. Errors: ARGUMENT (also when desc shows something else than the picture, which has
+ * no recipe), FILE (a file has changed since, or cannot be read), MEMORY. */
 GLINT_API GlintStatus glint_scene_recipe(const GlintScene *scene, const GlintRenderDesc *desc,
     bool with_files, GlintRecipe **recipe, GlintError *error);
 
