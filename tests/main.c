@@ -46,6 +46,7 @@
     X(outputs) \
     X(save) \
     X(flight) \
+    X(camera) \
     X(golden) \
     X(tiles) \
     X(api) \

@@ -216,5 +216,39 @@ static void reference_scenes(void) {
     CHECK(scene_count > 70);
 }
 
+static void expect_files(const GlintScene *scene, const char *const *expected, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        const char *path = glint_scene_file(scene, i);
+        CHECK_TEXT(path, in_scratch(expected[i]));
+    }
+    CHECK(glint_scene_file(scene, count) == NULL && glint_scene_file(scene, SIZE_MAX) == NULL);
+}
+
+/* What the scene names, as it was opened; of what is missing, where it would have to be. */
+static void listed(void) {
+    static const char good[] = BEGIN MESH("near.obj") MESH("../../meshes/far.obj")
+        MESH("./near.obj") "<cubemap><filename>map.pfm</filename></cubemap>" END;
+    static const char bad[] =
+        BEGIN MESH("gone/away.obj") MESH("near.obj") MESH("broken.obj") MESH("gone/away.obj") END;
+    static const char *const of_good[] = {"a/b/near.obj", "a/b/../../meshes/far.obj", "map.pfm"};
+    static const char *const of_bad[] = {"a/b/gone/away.obj", "a/b/near.obj", "broken.obj"};
+    make_folders();
+    GlintSceneDesc desc = glint_scene_desc_default();
+    GlintScene *scene = NULL;
+    CHECK_INT(glint_scene_create(&desc, &scene, NULL), GLINT_OK);
+    CHECK(glint_scene_file(scene, 0) == NULL);
+    CHECK_INT(glint_scene_load_memory(
+                  scene, good, sizeof good - 1, in_scratch("a/b/scene.xml"), NULL, NULL),
+        GLINT_OK);
+    expect_files(scene, of_good, 3);
+    glint_scene_destroy(scene);
+    CHECK_INT(glint_scene_create(&desc, &scene, NULL), GLINT_OK);
+    CHECK_INT(glint_scene_load_memory(
+                  scene, bad, sizeof bad - 1, in_scratch("a/b/scene.xml"), NULL, NULL),
+        GLINT_ERROR_SCENE);
+    expect_files(scene, of_bad, 3);
+    glint_scene_destroy(scene);
+}
+
 const GiTest tests_files[] = {TEST(places), TEST(missing_and_broken), TEST(environments),
-    TEST(textures), TEST(failing_allocator), TEST(reference_scenes), TEST_END};
+    TEST(textures), TEST(failing_allocator), TEST(listed), TEST(reference_scenes), TEST_END};

@@ -199,7 +199,8 @@ GLINT_API void glint_scene_destroy(GlintScene *scene);
 
 /* Reads a scene file into an empty scene. Every error of the file is reported through the
  * scene's diagnostic callback; the first is also left in *error. After an error the scene can
- * only be destroyed. Errors: SCENE, FILE, MEMORY, CANCELLED. monitor may be null. */
+ * only be asked for its files and be destroyed. Errors: SCENE, FILE, MEMORY, CANCELLED. monitor may
+ * be null. */
 GLINT_API GlintStatus glint_scene_load_file(
     GlintScene *scene, const char *path, const GlintMonitor *monitor, GlintError *error);
 
@@ -213,6 +214,13 @@ GLINT_API GlintStatus glint_scene_load_memory(GlintScene *scene, const void *byt
 typedef int64_t (*GlintReadFn)(void *user, void *buffer, size_t size);
 GLINT_API GlintStatus glint_scene_load_stream(GlintScene *scene, GlintReadFn read, void *user,
     const char *name, const GlintMonitor *monitor, GlintError *error);
+
+/* The files that the loaded scene file names (meshes, textures, an environment), each once, in the
+ * order in which they were met: the path as it was opened, or, of a file that was not found, the
+ * place where it was looked for first. Also answers after a load that failed: it then has the files
+ * that had been met so far. Null at an index >= the number of them. The string lives as long as the
+ * scene. */
+GLINT_API const char *glint_scene_file(const GlintScene *scene, size_t index);
 
 /* What of a scene stands in a place of its file. */
 typedef enum GlintObjectKind {
@@ -439,6 +447,10 @@ typedef struct GlintSceneInfo {
 
 GLINT_API void glint_scene_info(const GlintScene *scene, GlintSceneInfo *info);
 
+/* The scene's camera, as a desc that can be changed and drawn with. A projection normal that the
+ * scene does not give is 0 0 0. False when the scene has no camera. */
+GLINT_API bool glint_scene_camera(const GlintScene *scene, GlintCameraDesc *camera);
+
 /* Where samples of large lights, environments and paths fall. */
 typedef enum GlintSampling {
     GLINT_SAMPLING_SOBOL, /* scrambled low-discrepancy sequences */
@@ -464,6 +476,10 @@ typedef struct GlintRenderDesc {
     uint32_t *surface; /* GlintSurfaceId of the first sample's surface; 0: none */
     GlintSampling sampling;      /* SOBOL */
     const GlintMonitor *monitor; /* null */
+    /* Drawn with in the place of the scene's camera: the picture is the one of a scene with this
+     * camera, to the last bit, and nothing is built anew. null (default): the scene's. Read before
+     * the call returns. */
+    const GlintCameraDesc *camera;
     int cookie;
 } GlintRenderDesc;
 
@@ -489,6 +505,13 @@ typedef struct GlintHit {
                                a rectangle light of a dialect where these can be seen */
     GlintShaderId shader;
 } GlintHit;
+
+/* The ray through a place of the window: a runs from 0 at its left to 1, b from 0 at its bottom.
+ * The middle of the pixel (x, y) of a picture of w x h pixels, y from the top, is a = (x + 0.5) /
+ * w, b = 1 - (y + 0.5) / h. t_min is 0 and t_max INFINITY; the direction has length 1. Errors:
+ * ARGUMENT (a camera that glint_scene_set_camera would refuse). */
+GLINT_API GlintStatus glint_camera_ray(
+    const GlintCameraDesc *camera, double a, double b, GlintRay *ray, GlintError *error);
 
 /* The nearest hit of a ray in a committed scene. False: none, and *hit is untouched. Any number of
  * threads may call it. Arguments are not checked in release builds. */

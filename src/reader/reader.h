@@ -2,6 +2,7 @@
  * From XML to the model, in one pass over a stream. */
 #pragma once
 
+#include "reader/files.h"
 #include "reader/source.h"
 #include "scene/scene.h"
 
@@ -19,6 +20,7 @@ typedef struct GiReaderSource {
     int thread_count;     /* for loading meshes; 0: one per core */
     bool without_files;   /* other files are not opened: each counts as found and empty */
     GiSources *sources;   /* null; or filled with what is known of the places of objects */
+    GiFileNames *files;   /* null; or filled with the files that the scene names */
     bool expat_only;      /* the scanner is not used, which must make no difference but in time */
 } GiReaderSource;
 
