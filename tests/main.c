@@ -55,7 +55,10 @@
     X(exr) \
     X(elements) \
     X(files) \
-    X(triangle)
+    X(triangle) \
+    X(watch) \
+    X(watch_camera) \
+    X(watch_screen)
 /* clang-format on */
 
 #define DECLARE(room) extern const GiTest tests_##room[];
