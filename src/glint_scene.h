@@ -18,9 +18,9 @@ struct GlintScene {
     GlintDiagnosticFn diagnostic;
     void *diagnostic_user;
     bool keeps_sources;
-    GiSources sources;      /* of what a file has brought; all zero otherwise */
-    GiFileNames files;      /* that the scene file names */
-    bool committed, broken; /* broken: a load or commit failed */
+    GiSources sources;         /* of what a file has brought; all zero otherwise */
+    GiFileNames missing_files; /* that the scene file names */
+    bool committed, broken;    /* broken: a load or commit failed */
     GlintStats stats;
 };
 

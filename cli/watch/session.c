@@ -125,14 +125,20 @@ static GlintStatus read_scene(
     return status;
 }
 
-/* The scene file and what it names are watched from now on. */
+/* The scene file and what it names are watched from now on, what is missing too. */
 static void watch_files(CliSession *session, const GlintScene *scene, int64_t since) {
-    int count = 1;
-    while (scene != NULL && glint_scene_file(scene, (size_t)count - 1) != NULL) count++;
-    const char **paths = malloc((size_t)count * sizeof *paths);
+    int count = 1, found = 0;
+    size_t missing = 0;
+    GlintSceneFile file;
+    while (scene != NULL && glint_scene_file(scene, found, &file)) found++;
+    while (scene != NULL && glint_scene_missing_file(scene, missing) != NULL) missing++;
+    const char **paths = malloc(((size_t)found + missing + 1) * sizeof *paths);
     if (paths == NULL) return; /* those of before still are */
     paths[0] = session->path;
-    for (int i = 1; i < count; i++) paths[i] = glint_scene_file(scene, (size_t)i - 1);
+    for (int i = 0; i < found && glint_scene_file(scene, i, &file); i++) {
+        if (file.kind != GLINT_FILE_SCENE) paths[count++] = file.path;
+    }
+    for (size_t i = 0; i < missing; i++) paths[count++] = glint_scene_missing_file(scene, i);
     cli_file_watch_set(session->files, paths, count, since);
     free(paths);
 }
