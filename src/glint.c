@@ -253,8 +253,7 @@ void glint_scene_stats(const GlintScene *scene, GlintStats *stats) {
 
 GlintRenderDesc glint_render_desc_default(void) { return (GlintRenderDesc){.cookie = GI_COOKIE}; }
 
-/* What desc asks for, and the workers for it; color and png are left to the caller. */
-static GlintStatus plan_render(GlintScene *scene, const GlintRenderDesc *desc, GiRenderArea *area,
+GlintStatus gi_scene_plan_render(GlintScene *scene, const GlintRenderDesc *desc, GiRenderArea *area,
     GiRenderTarget *target, GlintError *error) {
     if (scene == NULL || desc == NULL) return ARGUMENT(error, "scene or desc is null");
     if (desc->cookie != GI_COOKIE) return ARGUMENT(error, NO_DEFAULT("glint_render_desc_default"));
@@ -317,7 +316,7 @@ GlintStatus glint_render(
     if (pixels == NULL) return ARGUMENT(error, "pixels is null");
     GiRenderArea area;
     GiRenderTarget target;
-    GlintStatus status = plan_render(scene, desc, &area, &target, error);
+    GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, error);
     if (status != GLINT_OK) return status;
     target.color = pixels;
     return render(scene, &area, desc->monitor, &target, error);
@@ -365,7 +364,7 @@ GlintStatus glint_render_save(GlintScene *scene, const GlintRenderDesc *desc, co
     const GlintSaveDesc *save, GlintError *error) {
     GiRenderArea area;
     GiRenderTarget target;
-    GlintStatus status = plan_render(scene, desc, &area, &target, error);
+    GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, error);
     if (status == GLINT_OK) status = gi_image_check_desc(save, error);
     if (status == GLINT_OK) status = glint_image_check_path(path, error);
     if (status != GLINT_OK) return status;

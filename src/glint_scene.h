@@ -23,6 +23,11 @@ struct GlintScene {
     GlintStats stats;
 };
 
+/* What desc asks for, and the workers for it; color and png are left to the caller. Errors: those
+ * of glint_render. */
+GlintStatus gi_scene_plan_render(GlintScene *scene, const GlintRenderDesc *desc, GiRenderArea *area,
+    GiRenderTarget *target, GlintError *error);
+
 #define ARGUMENT(error, ...) gi_error_set((error), GLINT_ERROR_ARGUMENT, __VA_ARGS__)
 
 static inline bool is_finite3(const double v[3]) {

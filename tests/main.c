@@ -47,6 +47,7 @@
     X(save) \
     X(flight) \
     X(golden) \
+    X(explain) \
     X(tiles) \
     X(api) \
     X(load) \

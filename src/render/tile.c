@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "render/stage.h"
+#include "render/record.h"
 
 #include <string.h>
 
@@ -247,6 +247,7 @@ bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
         draw_sample(&stage, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n);
         if (stopped(control)) return false;
         if (n > 1) add_sample(&extent, scratch, sample == 0);
+        if (gi_stage_records(&stage)) gi_record_end(&stage, n * n);
     }
     if (store(&stage, area, &extent, x, y, n * n)) return true;
     scratch->out_of_memory = true;
