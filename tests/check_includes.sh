@@ -30,6 +30,7 @@ render: sample light texture shade camera kernel accel image sched scene shape p
 glint.c: $all glint_scene.h
 glint_build.c: $all glint_scene.h
 glint_explain.c: $all glint_scene.h
+glint_recipe.c: $all glint_scene.h
 glint_scene.h: $all
 "
 
