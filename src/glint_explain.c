@@ -10,6 +10,7 @@
 GlintStatus glint_explain(GlintScene *scene, const GlintRenderDesc *desc,
     const GlintExplainSink *sink, GlintError *error) {
     if (sink == NULL) return ARGUMENT(error, "sink is null");
+    if (sink->only_sample < 0) return ARGUMENT(error, "only_sample is negative");
     GiRenderArea area;
     GiRenderTarget target;
     GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, error);

@@ -197,7 +197,7 @@ static void audit_scene(GlintScene *scene, const char *name, int width, int heig
     audit->name = name;
     audit->samples = audit->pixels = audit->faults = 0;
     glint_scene_info(scene, &audit->info);
-    const GlintExplainSink sink = {on_sample, on_pixel, audit};
+    const GlintExplainSink sink = {on_sample, on_pixel, audit, 0};
     GlintError error = {.status = GLINT_OK};
     if (picture.pixels != NULL) {
         CHECK_INT(glint_explain(scene, &desc, &sink, &error), GLINT_OK);

@@ -690,12 +690,14 @@ typedef struct GlintExplainPixel {
     uint8_t rgb[3];  /* the same with gamma 2.2 in 8 bits, as in a PNG */
 } GlintExplainPixel;
 
-/* Each may be null. What is pointed to lives until the function returns. They are called on the
+/* Each function may be null. What is pointed to lives until it returns. They are called on the
  * caller's thread: sample for each sample of a pixel in order, then pixel. */
 typedef struct GlintExplainSink {
     void (*sample)(void *user, const GlintExplainSample *sample);
     void (*pixel)(void *user, const GlintExplainPixel *pixel);
     void *user;
+    int only_sample; /* 0: all; k > 0: only the k-th of each pixel is drawn, whose sum is then its
+                        own colour, and pixel is not called. A pixel has fewer: none */
 } GlintExplainSink;
 
 /* Explains the pixels of the crop, row by row from the top left. desc is that of glint_render; its

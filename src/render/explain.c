@@ -17,7 +17,7 @@ typedef struct Explainer {
 
 static void tell_pixel(const Explainer *explainer, int x, int y, int samples) {
     const GlintExplainSink *sink = explainer->record.sink;
-    if (sink->pixel == NULL) return;
+    if (sink->pixel == NULL || sink->only_sample > 0) return;
     double exposure = explainer->world->scene->exposure;
     GlintExplainPixel pixel = {
         .x = x, .y = y, .samples = samples, .exposure = exposure > 0 ? exposure : 1};

@@ -264,6 +264,13 @@ void gi_record_add(const GiStage *stage, uint32_t ray, GiVec amount) {
     gi_record_sum(stage->target->record, ray, GLINT_NONE, amount);
 }
 
+void gi_record_choose_samples(const GiRecord *record, int *first, int *end) {
+    int only = record->sink->only_sample;
+    if (only == 0) return;
+    if (only < *end) *end = only;
+    *first = only - 1;
+}
+
 static int grid_of(int samples) {
     int n = 1;
     while (n * n < samples) n++;
@@ -274,7 +281,8 @@ void gi_record_end(const GiStage *stage, int samples) {
     GiRecord *record = stage->target->record;
     int n = grid_of(samples), i = (int)stage->sample;
     GiVec color = record->additions.count > 0 ? record->color : gi_vec(0, 0, 0);
-    record->sum = i == 0 ? color : gi_add(record->sum, color);
+    bool first = i == 0 || record->sink->only_sample > 0;
+    record->sum = first ? color : gi_add(record->sum, color);
     record->samples = samples;
     if (record->out_of_memory) {
         stage->scratch->out_of_memory = true;

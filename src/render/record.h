@@ -34,6 +34,9 @@ void gi_record_reset(GiRecord *record);
 
 /* ---- record.c: rays */
 
+/* Which samples of a pixel are drawn: of first to end - 1 all, or the one that is asked for. */
+void gi_record_choose_samples(const GiRecord *record, int *first, int *end);
+
 /* A sample begins: its only camera ray lies traced in the bundle. */
 void gi_record_camera(const GiStage *stage);
 
