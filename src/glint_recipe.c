@@ -155,6 +155,9 @@ GlintStatus glint_scene_recipe(const GlintScene *scene, const GlintRenderDesc *d
     if (desc->show != GLINT_SHOW_PICTURE) {
         return ARGUMENT(error, "there is no recipe of what only explains a picture");
     }
+    if (desc->camera != NULL) {
+        return ARGUMENT(error, "a recipe is of the scene's own camera");
+    }
     GiRecipe *own = create();
     if (own == NULL) return gi_error_memory(error);
     const GiScene *model = &scene->model;

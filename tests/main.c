@@ -47,7 +47,9 @@
     X(outputs) \
     X(save) \
     X(flight) \
+    X(camera) \
     X(golden) \
+    X(explain) \
     X(tiles) \
     X(api) \
     X(load) \
@@ -57,7 +59,10 @@
     X(show) \
     X(elements) \
     X(files) \
-    X(triangle)
+    X(triangle) \
+    X(watch) \
+    X(watch_camera) \
+    X(watch_screen)
 /* clang-format on */
 
 #define DECLARE(room) extern const GiTest tests_##room[];

@@ -207,8 +207,8 @@ static void look_behind(const GiCheck *check, const GiSight *sight, Pair *pairs,
     const GiWorld *world = check->world;
     const GiShapes *shapes = world->trace.shapes;
     const GiTraceHit *hit = &sight->hit;
-    GiTraceRay ray = {sight->origin, sight->direction, world->eye_error, INFINITY, hit->shape.bits,
-        hit->instance};
+    GiTraceRay ray = {sight->origin, sight->direction, gi_world_eye_error(world, world->view.eye),
+        INFINITY, hit->shape.bits, hit->instance};
     GiTraceHit other;
     if (gi_shape_kind(hit->shape) == GI_SHAPE_RECTANGLE) return;
     if (!world->kernel->closest(&world->trace, &ray, &other)) return;

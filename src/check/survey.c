@@ -49,7 +49,7 @@ void gi_survey_free(const GiCheck *check, GiSurvey *survey) {
 bool gi_survey_look(const GiCheck *check, double a, double b, GiSight *sight) {
     const GiWorld *world = check->world;
     gi_view_ray(&world->view, a, b, &sight->origin, &sight->direction);
-    GiTraceRay ray = {
-        sight->origin, sight->direction, world->eye_error, INFINITY, GI_SHAPE_NONE, GI_SHAPE_NONE};
+    GiTraceRay ray = {sight->origin, sight->direction, gi_world_eye_error(world, world->view.eye),
+        INFINITY, GI_SHAPE_NONE, GI_SHAPE_NONE};
     return world->kernel->closest(&world->trace, &ray, &sight->hit);
 }

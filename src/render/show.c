@@ -130,11 +130,12 @@ static double light_part(const GiWorld *world, const Seen *seen, uint32_t x, uin
 static bool look(const Showing *showing, uint32_t x, uint32_t y, Seen *seen) {
     const GiWorld *world = showing->world;
     const GiRenderArea *area = showing->area;
+    const GiView *view = showing->show->view;
     double a = (x + 0.5) / area->width;
     double b = ((double)area->height - 1 - y + 0.5) / area->height;
-    gi_view_ray(&world->view, a, b, &seen->origin, &seen->direction);
-    GiTraceRay ray = {
-        seen->origin, seen->direction, world->eye_error, INFINITY, GI_SHAPE_NONE, GI_SHAPE_NONE};
+    gi_view_ray(view, a, b, &seen->origin, &seen->direction);
+    GiTraceRay ray = {seen->origin, seen->direction, gi_world_eye_error(world, view->eye), INFINITY,
+        GI_SHAPE_NONE, GI_SHAPE_NONE};
     if (!world->kernel->closest(&world->trace, &ray, &seen->hit)) return false;
     seen->at = gi_shape_point(&world->shapes, seen->hit.shape, seen->hit.instance, seen->origin,
         seen->direction, seen->hit.t, world->rules->cone_geometric);
@@ -157,7 +158,7 @@ static GiVec color_of(const Showing *showing, const Seen *seen, uint32_t x, uint
 
 /* What drawing the pixel takes, alone. False: memory, or stopped. */
 static bool cost_of(Showing *showing, uint32_t x, uint32_t y, int worker, float *value) {
-    const GiRenderTarget target = {.samples = showing->show->samples};
+    const GiRenderTarget target = {.samples = showing->show->samples, .view = showing->show->view};
     const GiRenderArea area = {.width = showing->area->width,
         .height = showing->area->height,
         .x = (int)x,

@@ -6,9 +6,10 @@
 #include "render/render.h"
 
 typedef struct GiShow {
-    GlintShow what;  /* not PICTURE */
-    int samples;     /* of COST */
-    float *color;    /* crop_width * crop_height triples, top row first */
+    GlintShow what;     /* not PICTURE */
+    int samples;        /* of COST */
+    const GiView *view; /* through which it is seen */
+    float *color;       /* crop_width * crop_height triples, top row first */
     double range[2]; /* filled in: of DEPTH what is white and what is black, of COST 0 and what is
                         white; otherwise 0 */
 } GiShow;
