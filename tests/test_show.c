@@ -289,6 +289,34 @@ static void crops(void) {
     glint_scene_destroy(scene);
 }
 
+/* Another camera shows what a scene with that camera would. */
+static void cameras(void) {
+    static const char *const moved =
+        "<camera type='PerspectiveCamera'><viewPoint>1 0.5 4</viewPoint>"
+        "<viewDir>-1 0 -4</viewDir><viewWidth>1.2</viewWidth>"
+        "<viewHeight>0.8</viewHeight></camera>";
+    static char lights[1024];
+    snprintf(lights, sizeof lights, "%s%s", moved, two_lights); /* the last camera counts */
+    GlintScene *first = scene_with("", two_lights, NULL, 2);
+    GlintScene *second = scene_with("", lights, NULL, 2);
+    GlintCameraDesc camera = glint_camera_desc_default();
+    camera.view_point[0] = 1, camera.view_point[1] = 0.5, camera.view_point[2] = 4;
+    camera.view_direction[0] = -1, camera.view_direction[2] = -4;
+    camera.view_width = 1.2, camera.view_height = 0.8;
+    for (int show = GLINT_SHOW_NORMAL; show < GLINT_SHOW_COUNT; show++) {
+        GlintRenderDesc desc = glint_render_desc_default();
+        desc.show = (GlintShow)show;
+        Picture a = picture_of_scene(second, &desc);
+        desc.camera = &camera;
+        Picture b = picture_of_scene(first, &desc);
+        CHECK(picture_equal(&a, &b));
+        picture_free(&a);
+        picture_free(&b);
+    }
+    glint_scene_destroy(first);
+    glint_scene_destroy(second);
+}
+
 static bool always(void *user) {
     (void)user;
     return true;
@@ -351,4 +379,4 @@ const GiTest tests_show[] = {TEST(normals_are_those_of_the_shader),
     TEST(depth_runs_from_white_to_black), TEST(depth_of_a_horizon), TEST(each_surface_has_a_colour),
     TEST(numbers_look_different), TEST(texture_coordinates), TEST(shadows),
     TEST(cost_is_the_same_everywhere), TEST(cost_of_samples), TEST(legend), TEST(crops),
-    TEST(refused_and_cancelled), TEST(saved), TEST_END};
+    TEST(cameras), TEST(refused_and_cancelled), TEST(saved), TEST_END};

@@ -50,6 +50,20 @@ static bool is_among(const GiSolid *solids, int count, uint32_t order) {
     return false;
 }
 
+/* Whether a solid that holds the middle of a light holds all of it: of a rectangle the corners. */
+static bool holds_corners(const GiCheck *check, size_t index, uint32_t order) {
+    const GiLightRectangle *rectangle = &check->world->lights.data[index];
+    if (check->scene->lights.data[index].type != GLINT_LIGHT_RECTANGLE) return true;
+    for (int corner = 0; corner < 4; corner++) {
+        GiSolid solids[GI_SOLID_LIMIT];
+        GiVec p = gi_along(rectangle->center, rectangle->across, corner & 1 ? 0.5 : -0.5);
+        p = gi_along(p, rectangle->upward, corner & 2 ? 0.5 : -0.5);
+        int count = gi_check_solids(check, p, -1e-7, solids);
+        if (!is_among(solids, count, order)) return false;
+    }
+    return true;
+}
+
 /* A solid that the camera is in too is a room. Whether a parallel camera is in one is a question
  * for each of its rays, so it is asked in the middle. */
 static bool check_inside(GiCheck *check, size_t index) {
@@ -60,6 +74,7 @@ static bool check_inside(GiCheck *check, size_t index) {
     if (light_count == 0) return false;
     int eye_count = gi_check_solids(check, check->world->view.eye, 1e-7, round_eye);
     for (int i = 0; i < light_count; i++) {
+        if (!holds_corners(check, index, round_light[i].order)) continue;
         const GiSolid *solid = &round_light[i];
         char name[GI_CHECK_NAME];
         if (is_among(round_eye, eye_count, solid->order)) continue;

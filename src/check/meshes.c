@@ -140,17 +140,27 @@ static void check_normals(GiCheck *check, const GiMesh *mesh, int64_t place) {
 
 void gi_check_meshes(GiCheck *check) {
     const GiScene *scene = check->scene;
-    for (uint32_t mesh = 0; mesh < scene->meshes.meshes.count; mesh++) {
-        uint32_t order = GI_NONE;
-        for (size_t i = 0; i < scene->mesh_surfaces.count; i++) {
-            const GiMeshSurface *surface = &scene->mesh_surfaces.data[i];
-            if (surface->mesh == mesh && surface->info.order < order) order = surface->info.order;
-        }
-        if (order == GI_NONE || gi_check_stopped(check)) continue;
-        int64_t place = gi_check_place(check, GLINT_OBJECT_SURFACE, order + 1);
-        const GiMesh *at = &check->world->trace.shapes->meshes[mesh];
-        check_degenerate(check, at, place);
-        check_winding(check, at, place);
-        check_normals(check, at, place);
+    size_t count = scene->meshes.meshes.count, size = count * sizeof(uint32_t);
+    if (count == 0) return;
+    uint32_t *orders = gi_memory_allocate(check->memory, size);
+    if (orders == NULL) {
+        check->status = GLINT_ERROR_MEMORY;
+        return;
     }
+    memset(orders, 0xff, size); /* GI_NONE */
+    for (size_t i = 0; i < scene->mesh_surfaces.count; i++) {
+        const GiMeshSurface *surface = &scene->mesh_surfaces.data[i];
+        if (surface->info.order < orders[surface->mesh]) {
+            orders[surface->mesh] = surface->info.order;
+        }
+    }
+    for (size_t i = 0; i < count && !gi_check_stopped(check); i++) {
+        if (orders[i] == GI_NONE) continue;
+        int64_t place = gi_check_place(check, GLINT_OBJECT_SURFACE, orders[i] + 1);
+        const GiMesh *mesh = &check->world->trace.shapes->meshes[i];
+        check_degenerate(check, mesh, place);
+        check_winding(check, mesh, place);
+        check_normals(check, mesh, place);
+    }
+    gi_memory_free(check->memory, orders, size);
 }

@@ -13,7 +13,7 @@ enum { NUMBERS = 8 };
 typedef struct Key {
     uint64_t hash;
     uint32_t order, item;
-    uint32_t kind, content; /* content: a mesh, or the first node of an instance's tree */
+    uint32_t kind, content; /* content: a mesh, or an instance's tree */
     double numbers[NUMBERS];
     const GiAffine *to_world; /* null: none */
 } Key;
@@ -75,9 +75,8 @@ static Key key_of(const GiCheck *check, const GiCheckItem *item, uint32_t index)
     } else if (gi_shape_kind(item->ref) == GI_SHAPE_INSTANCE) {
         const GiInstance *instance = &shapes->instances[i];
         key.to_world = &shapes->transforms[instance->transform].to_world;
-        for (size_t k = 0; k < check->world->inner_count; k++) {
-            if (instance->tree == &check->world->inner[k].tree) key.content = (uint32_t)k;
-        }
+        /* Each tree is the first member of its store. */
+        key.content = (uint32_t)((const GiTreeStore *)instance->tree - check->world->inner);
     } else if (gi_shape_kind(item->ref) == GI_SHAPE_MESH) {
         key.content = i;
     }
