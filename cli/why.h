@@ -9,12 +9,7 @@
 
 #include <stdio.h>
 
-typedef enum CliWhyFormat {
-    CLI_WHY_TEXT,
-    CLI_WHY_JSON,
-    CLI_WHY_OBJ,
-    CLI_WHY_HTML
-} CliWhyFormat;
+typedef enum CliWhyFormat { CLI_WHY_TEXT, CLI_WHY_JSON, CLI_WHY_OBJ, CLI_WHY_HTML } CliWhyFormat;
 
 typedef struct CliWhy {
     GlintScene *scene; /* committed, with its sources */
@@ -25,8 +20,8 @@ typedef struct CliWhy {
     int x, y;             /* the pixel; -1: none is named */
     int samples;          /* of a pixel */
     int sample;           /* in detail; from 0 */
-    int region[4]; /* left, top, width, height, of the page; width 0: all */
-    int step;      /* every so many-th pixel, of the page; 0: as fits */
+    int region[4];        /* left, top, width, height, of the page; width 0: all */
+    int step;             /* every so many-th pixel, of the page; 0: as fits */
     GlintError error;
     FILE *out;
     /* What the forms that end with a pixel's sum have seen of it. */

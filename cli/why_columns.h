@@ -7,7 +7,12 @@
 
 #include <stdio.h>
 
-typedef enum CliColumnType { CLI_COLUMN_U8, CLI_COLUMN_U16, CLI_COLUMN_U32, CLI_COLUMN_F32 } CliColumnType;
+typedef enum CliColumnType {
+    CLI_COLUMN_U8,
+    CLI_COLUMN_U16,
+    CLI_COLUMN_U32,
+    CLI_COLUMN_F32
+} CliColumnType;
 
 typedef struct CliColumn {
     const char *name;

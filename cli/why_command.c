@@ -122,8 +122,8 @@ static CliStatus read_operands(
     *scene = (CliOperands){operands->items, 1};
     if (operands->count == 0) return cli_message_usage("no scene given");
     if (operands->count > 2) {
-        return cli_message_usage("why takes one scene and one pixel, not %d words",
-            operands->count);
+        return cli_message_usage(
+            "why takes one scene and one pixel, not %d words", operands->count);
     }
     if (operands->count == 1) {
         return format == CLI_WHY_HTML
@@ -131,8 +131,8 @@ static CliStatus read_operands(
                    : cli_message_usage("which pixel? Say so behind the scene, as X,Y");
     }
     if (!read_numbers(operands->items[1], 2, place)) {
-        return cli_message_usage("a pixel is X,Y, counted from 0 at the top left, not '%s'",
-            operands->items[1]);
+        return cli_message_usage(
+            "a pixel is X,Y, counted from 0 at the top left, not '%s'", operands->items[1]);
     }
     why->x = place[0];
     why->y = place[1];
@@ -163,8 +163,8 @@ static CliStatus check_place(CliWhy *why, const WhyOptions *options) {
     }
     if ((int64_t)options->region[0] + options->region[2] > why->width ||
         (int64_t)options->region[1] + options->region[3] > why->height) {
-        return cli_message_usage("--region reaches outside of the %d x %d pixels", why->width,
-            why->height);
+        return cli_message_usage(
+            "--region reaches outside of the %d x %d pixels", why->width, why->height);
     }
     memcpy(why->region, options->region, sizeof why->region);
     why->step = options->step;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * A page with the picture and the rays of its pixels. It cannot run Glint, so it holds the rays:
- * what glint_explain tells, in columns (why_columns.h), for every pixel of the region or, where that
- * would be too much, for every n-th; the page says which. What follows from the rest is left to its
- * script: points, n.v, levels. Numbers have five digits; exact ones are the text form's.
+ * what glint_explain tells, in columns (why_columns.h), for every pixel of the region or, where
+ * that would be too much, for every n-th; the page says which. What follows from the rest is left
+ * to its script: points, n.v, levels. Numbers have five digits; exact ones are the text form's.
  *
  * The page itself is why_page.html; its script reads the columns by these names. */
 #include "why.h"
@@ -130,8 +130,7 @@ static void put_layer(Page *page, const GlintExplainLayer *layer) {
     put(page, COLUMN_layer_shader, small(layer->shader.index1));
     put(page, COLUMN_layer_state, layer->behind ? 2 : layer->total ? 3 : layer->inside);
     put_number(page, COLUMN_layer_cosine, layer->cosine);
-    put_number(
-        page, COLUMN_layer_behind, layer->total ? 1 / layer->ratio : layer->cosine_behind);
+    put_number(page, COLUMN_layer_behind, layer->total ? 1 / layer->ratio : layer->cosine_behind);
     put_number(page, COLUMN_layer_reflectance, layer->reflectance);
 }
 
@@ -199,8 +198,8 @@ static void put_sample(void *user, const GlintExplainSample *sample) {
 /* The linear colour of a pixel of the region, as it was drawn. */
 static void put_color(Page *page, int x, int y) {
     const int *region = page->why->region;
-    const float *color = page->pixels + 3 * ((size_t)(y - region[1]) * (size_t)region[2] +
-                                                (size_t)(x - region[0]));
+    const float *color =
+        page->pixels + 3 * ((size_t)(y - region[1]) * (size_t)region[2] + (size_t)(x - region[0]));
     for (int i = 0; i < 3; i++) {
         put_number(page, (Column)(COLUMN_pixel_red + i), (double)color[i]);
     }

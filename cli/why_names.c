@@ -7,8 +7,8 @@
 /* ---------------------------------------------------------------- words */
 
 const char *cli_why_surface_type(GlintSurfaceType type) {
-    static const char *const names[] = {"Sphere", "Box", "Cylinder", "Cone", "Plane", "Disc",
-        "Group", "Mesh"};
+    static const char *const names[] = {
+        "Sphere", "Box", "Cylinder", "Cone", "Plane", "Disc", "Group", "Mesh"};
     return names[type];
 }
 
@@ -36,8 +36,8 @@ const char *cli_why_branch_fate(GlintBranchFate fate) {
 }
 
 const char *cli_why_light_fate(GlintLightFate fate) {
-    static const char *const names[] = {"arrives", "blocked", "everywhere", "behind",
-        "unseen side", "off", "turned away", "on surface", "absorbed"};
+    static const char *const names[] = {"arrives", "blocked", "everywhere", "behind", "unseen side",
+        "off", "turned away", "on surface", "absorbed"};
     return names[fate];
 }
 
@@ -88,8 +88,8 @@ const char *cli_why_name_light(const CliWhy *why, uint32_t light, char name[CLI_
         snprintf(name, CLI_WHY_NAME_SIZE, "environment");
         return name;
     }
-    snprintf(name, CLI_WHY_NAME_SIZE, "light %u, %s", (unsigned)light,
-        cli_why_light_type(desc.type));
+    snprintf(
+        name, CLI_WHY_NAME_SIZE, "light %u, %s", (unsigned)light, cli_why_light_type(desc.type));
     append_source(why, GLINT_OBJECT_LIGHT, light, name);
     return name;
 }

@@ -43,29 +43,33 @@ static bool is_glass(const CliWhy *why, const GlintExplainRay *at, const GlintEx
            glint_scene_shader(why->scene, hit.shader, &desc) && desc.type == GLINT_SHADER_GLASS;
 }
 
-static void hint_blocked(const CliWhy *why, const GlintExplainRay *at,
-    const GlintExplainLight *light, int indent) {
+static void hint_blocked(
+    const CliWhy *why, const GlintExplainRay *at, const GlintExplainLight *light, int indent) {
     double reach = isfinite(light->distance) ? light->distance : 1;
     bool near = light->blocker_distance < 1e-3 * reach;
     bool own = light->blocker.index1 != 0 && light->blocker.index1 == at->surface.index1;
     if (own && light->n_dot_l <= 0) {
-        cli_why_line(why, indent, "hint: the surface turns its back to the light (n.l <= 0) and "
-                                  "is in the way itself");
+        cli_why_line(why, indent,
+            "hint: the surface turns its back to the light (n.l <= 0) and "
+            "is in the way itself");
     } else if (own && near) {
-        cli_why_line(why, indent, "hint: that is the surface of the point, right where the shadow "
-                                  "ray begins: does it fold, or is it there twice?");
+        cli_why_line(why, indent,
+            "hint: that is the surface of the point, right where the shadow "
+            "ray begins: does it fold, or is it there twice?");
     } else if (own) {
         cli_why_line(why, indent, "hint: another part of the same surface is in the way");
     } else if (near) {
-        cli_why_line(why, indent, "hint: that is right where the shadow ray begins: do the two "
-                                  "surfaces overlap, or lie in one plane?");
+        cli_why_line(why, indent,
+            "hint: that is right where the shadow ray begins: do the two "
+            "surfaces overlap, or lie in one plane?");
     }
     if (stands_inside(why, light)) {
         cli_why_line(why, indent, "hint: the light stands inside of that surface");
     }
     if (is_glass(why, at, light)) {
-        cli_why_line(why, indent, "hint: that is glass; by the rules of the format shadow rays "
-                                  "do not pass it");
+        cli_why_line(why, indent,
+            "hint: that is glass; by the rules of the format shadow rays "
+            "do not pass it");
     }
 }
 
@@ -74,13 +78,15 @@ void cli_why_print_light_hints(const CliWhy *why, const GlintExplainSample *samp
     const GlintExplainRay *at = &sample->rays[light->ray];
     if (light->fate == GLINT_LIGHT_BLOCKED) hint_blocked(why, at, light, indent);
     if (light->fate == GLINT_LIGHT_BEHIND && at->n_dot_v < 0) {
-        cli_why_line(why, indent, "hint: the normal points away from the viewer and from the "
-                                  "light: is the surface turned inside out?");
+        cli_why_line(why, indent,
+            "hint: the normal points away from the viewer and from the "
+            "light: is the surface turned inside out?");
     }
     double most = fmax(light->term[0], fmax(light->term[1], light->term[2])) * why->pixel.exposure;
     if (light->fate == GLINT_LIGHT_ARRIVES && light->falloff < 0.01 && most < 1e-3) {
-        cli_why_line(why, indent, "hint: in this dialect light falls off with 1/r^2, here to "
-                                  "%.6g: an intensity of about r^2 = %.6g would do",
+        cli_why_line(why, indent,
+            "hint: in this dialect light falls off with 1/r^2, here to "
+            "%.6g: an intensity of about r^2 = %.6g would do",
             light->falloff, 1 / light->falloff);
     }
 }

@@ -27,8 +27,7 @@ typedef struct Summary {
 
 static const char *end_of(const CliWhy *why, const GlintExplainRay *ray, char *name) {
     if (ray->end == GLINT_RAY_END_NOTHING) return "nothing";
-    return cli_why_name_surface(
-        why, ray->surface, ray->surface_type, GLINT_NONE, ray->light, name);
+    return cli_why_name_surface(why, ray->surface, ray->surface_type, GLINT_NONE, ray->light, name);
 }
 
 static Group *group_of(Summary *summary, const GlintExplainRay *ray) {
@@ -71,8 +70,8 @@ static void summarize(void *user, const GlintExplainSample *sample) {
 
 static GlintStatus print_samples(CliWhy *why) {
     Summary summary = {.why = why};
-    cli_why_line(why, 0, "\nIts %d samples (place in the pixel from the lower left, colour):",
-        why->pixel.samples);
+    cli_why_line(why, 0,
+        "\nIts %d samples (place in the pixel from the lower left, colour):", why->pixel.samples);
     GlintStatus status = cli_why_explain(why, summarize, &summary);
     for (int i = 0; i < summary.count; i++) {
         Group *group = &summary.groups[i];
@@ -150,8 +149,8 @@ static void print_color(const CliWhy *why) {
             cli_why_vec(pixel->sum), cli_why_vec(mean));
     }
     if (pixel->exposure != 1) cli_why_line(why, 2, "x exposure %.6g", pixel->exposure);
-    cli_why_line(why, 2, "linear %.9g %.9g %.9g", (double)pixel->color[0],
-        (double)pixel->color[1], (double)pixel->color[2]);
+    cli_why_line(why, 2, "linear %.9g %.9g %.9g", (double)pixel->color[0], (double)pixel->color[1],
+        (double)pixel->color[2]);
     print_bytes(why);
 }
 
@@ -181,8 +180,8 @@ GlintStatus cli_why_text(CliWhy *why) {
     if (status != GLINT_OK) return status;
     const uint8_t *rgb = why->pixel.rgb;
     cli_why_line(why, 0, "%s, pixel %d,%d of %d x %d, dialect %s: #%02x%02x%02x (%d %d %d)\n",
-        why->name, why->x, why->y, why->width, why->height,
-        glint_dialect_name(why->info.dialect), rgb[0], rgb[1], rgb[2], rgb[0], rgb[1], rgb[2]);
+        why->name, why->x, why->y, why->width, why->height, glint_dialect_name(why->info.dialect),
+        rgb[0], rgb[1], rgb[2], rgb[0], rgb[1], rgb[2]);
     status = cli_why_explain(why, print_detail, why);
     if (status == GLINT_OK && why->pixel.samples > 1) status = print_samples(why);
     if (status == GLINT_OK) print_color(why);

@@ -72,14 +72,13 @@ static const char *diffuse_formula(const GlintExplainRay *at, const GlintExplain
 }
 
 /* The shader's formula with its values: what it reflects of light of strength 1. */
-static void print_reflected(const CliWhy *why, const GlintExplainRay *at,
-    const GlintExplainLight *light, int indent) {
+static void print_reflected(
+    const CliWhy *why, const GlintExplainRay *at, const GlintExplainLight *light, int indent) {
     GlintShaderDesc desc = glint_shader_desc_default();
     glint_scene_shader(why->scene, at->local_shader, &desc);
     const char *formula = diffuse_formula(at, light);
     if (desc.type == GLINT_SHADER_LAMBERTIAN) {
-        cli_why_line(
-            why, indent, "x reflected %s = %s", cli_why_vec(light->reflected), formula);
+        cli_why_line(why, indent, "x reflected %s = %s", cli_why_vec(light->reflected), formula);
         return;
     }
     cli_why_line(why, indent, "x reflected %s, which is", cli_why_vec(light->reflected));
@@ -138,8 +137,9 @@ static void print_fate(const CliWhy *why, const GlintExplainLight *light, int in
         cli_why_line(why, indent, "adds nothing: the light stands behind the surface (n.l <= 0)");
         break;
     case GLINT_LIGHT_UNSEEN_SIDE:
-        cli_why_line(why, indent, "adds nothing: the surface is seen from behind (n.v < 0), and "
-                                  "by the rules of this dialect it is black there");
+        cli_why_line(why, indent,
+            "adds nothing: the surface is seen from behind (n.v < 0), and "
+            "by the rules of this dialect it is black there");
         break;
     case GLINT_LIGHT_OFF: cli_why_line(why, indent, "adds nothing: it has no strength"); break;
     case GLINT_LIGHT_TURNED_AWAY:
@@ -160,16 +160,15 @@ static void print_light(const CliWhy *why, const GlintExplainSample *sample,
     char name[CLI_WHY_NAME_SIZE];
     cli_why_name_light(why, light->light, name);
     if (light->fate == GLINT_LIGHT_EVERYWHERE) {
-        const double *adds = light->addition == GLINT_NONE
-                                 ? light->term
-                                 : sample->additions[light->addition].amount;
+        const double *adds =
+            light->addition == GLINT_NONE ? light->term : sample->additions[light->addition].amount;
         cli_why_line(why, indent, "%s: shines everywhere, adds %s", name, cli_why_vec(adds));
         return;
     }
     bool aimed = !cli_why_is(light->direction, 0);
     if (aimed && isfinite(light->distance)) {
-        cli_why_line(why, indent, "%s: n.l = %.6g, n.h = %.6g, distance %.6g", name,
-            light->n_dot_l, light->n_dot_h, light->distance);
+        cli_why_line(why, indent, "%s: n.l = %.6g, n.h = %.6g, distance %.6g", name, light->n_dot_l,
+            light->n_dot_h, light->distance);
     } else if (aimed) {
         cli_why_line(
             why, indent, "%s: n.l = %.6g, n.h = %.6g", name, light->n_dot_l, light->n_dot_h);
@@ -235,8 +234,7 @@ static void print_layer(const CliWhy *why, const GlintExplainLayer *layer, int i
         cli_why_line(why, indent,
             "%s, from inside: angle %.2f degrees (n.v = %.6g), beyond the critical %.2f: "
             "total internal reflection",
-            what, degrees(layer->cosine), layer->cosine,
-            90 - degrees(1 / layer->ratio));
+            what, degrees(layer->cosine), layer->cosine, 90 - degrees(1 / layer->ratio));
     } else if (glass) {
         cli_why_line(why, indent,
             "%s, from %s: angle %.2f degrees (n.v = %.6g), behind it %.2f (cosine %.6g): R = %.6g",
@@ -248,8 +246,8 @@ static void print_layer(const CliWhy *why, const GlintExplainLayer *layer, int i
     }
 }
 
-static void print_surface(const CliWhy *why, const GlintExplainSample *sample, uint32_t index,
-    int indent) {
+static void print_surface(
+    const CliWhy *why, const GlintExplainSample *sample, uint32_t index, int indent) {
     const GlintExplainRay *ray = &sample->rays[index];
     cli_why_line(why, indent, "point %s, normal %s, n.v = %.6g", cli_why_vec(ray->point),
         cli_why_vec(ray->normal), ray->n_dot_v);
@@ -349,8 +347,7 @@ static void print_ray(const CliWhy *why, const GlintExplainSample *sample, uint3
         return;
     }
     cli_why_line(why, indent, "meets %s after %.6g",
-        cli_why_name_surface(
-            why, ray->surface, ray->surface_type, ray->triangle, ray->light, name),
+        cli_why_name_surface(why, ray->surface, ray->surface_type, ray->triangle, ray->light, name),
         ray->t);
     int detail = indent + 2; /* of the surface; rays that go on stand under "meets" */
     bool looks_only = ray->kind == GLINT_RAY_PROBE || ray->end == GLINT_RAY_END_LIGHT;

@@ -78,6 +78,7 @@ void glint_scene_destroy(GlintScene *scene) {
     gi_pool_destroy(scene->pool);
     gi_scene_reset(&scene->model);
     if (scene->sources.memory != NULL) gi_sources_reset(&scene->sources);
+    gi_file_names_reset(&scene->missing_files, &scene->memory);
     GI_ASSERT(atomic_load(&scene->memory.used) == 0);
     GlintAllocator allocator = scene->memory.allocator;
     allocator.reallocate(allocator.user, scene, sizeof *scene, 0);
@@ -100,6 +101,7 @@ static GlintStatus load(GlintScene *scene, GiReaderSource *source, GlintError *e
     source->diagnostic_user = scene->diagnostic_user;
     source->dialect = scene->dialect;
     source->thread_count = scene->thread_count;
+    source->missing_files = &scene->missing_files;
     if (scene->keeps_sources) {
         scene->broken = !gi_sources_init(&scene->sources, &scene->memory, source->name);
         if (scene->broken) return gi_error_memory(error);
@@ -244,6 +246,11 @@ bool glint_scene_source(
     return gi_sources_find(&scene->sources, kind, index1, source);
 }
 
+const char *glint_scene_missing_file(const GlintScene *scene, size_t index) {
+    GI_ASSERT(scene != NULL);
+    return gi_file_names_at(&scene->missing_files, index);
+}
+
 void glint_scene_info(const GlintScene *scene, GlintSceneInfo *info) {
     GI_ASSERT(scene != NULL && info != NULL);
     const GiScene *model = &scene->model;
@@ -267,7 +274,7 @@ void glint_scene_stats(const GlintScene *scene, GlintStats *stats) {
 GlintRenderDesc glint_render_desc_default(void) { return (GlintRenderDesc){.cookie = GI_COOKIE}; }
 
 GlintStatus gi_scene_plan_render(GlintScene *scene, const GlintRenderDesc *desc, GiRenderArea *area,
-    GiRenderTarget *target, GlintError *error) {
+    GiRenderTarget *target, GiView *view, GlintError *error) {
     if (scene == NULL || desc == NULL) return ARGUMENT(error, "scene or desc is null");
     if (desc->cookie != GI_COOKIE) return ARGUMENT(error, NO_DEFAULT("glint_render_desc_default"));
     if (!scene->committed) return ARGUMENT(error, "the scene is not committed");
@@ -297,8 +304,15 @@ GlintStatus gi_scene_plan_render(GlintScene *scene, const GlintRenderDesc *desc,
     if (desc->light < -1 || desc->light > (int)scene->model.lights.count) {
         return ARGUMENT(error, "there is no such light");
     }
+    GiCamera camera = scene->model.camera;
+    if (desc->camera != NULL) {
+        GlintStatus status = gi_glint_camera(desc->camera, &camera, error);
+        if (status != GLINT_OK) return status;
+    }
+    *view = gi_view_of(&camera);
     *target = (GiRenderTarget){
         .samples = desc->samples != 0 ? desc->samples : scene->model.samples,
+        .view = view,
         .depth = desc->depth,
         .normal = desc->normal,
         .albedo = desc->albedo,
@@ -329,7 +343,8 @@ GlintStatus glint_render(
     if (pixels == NULL) return ARGUMENT(error, "pixels is null");
     GiRenderArea area;
     GiRenderTarget target;
-    GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, error);
+    GiView view;
+    GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, &view, error);
     if (status != GLINT_OK) return status;
     target.color = pixels;
     return render(scene, &area, desc->monitor, &target, error);
@@ -396,14 +411,17 @@ GlintStatus glint_render_save(GlintScene *scene, const GlintRenderDesc *desc, co
     const GlintSaveDesc *save, GlintError *error) {
     GiRenderArea area;
     GiRenderTarget target;
-    GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, error);
+    GiView view;
+    GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, &view, error);
     if (status == GLINT_OK) status = gi_image_check_desc(save, error);
     if (status == GLINT_OK) status = glint_image_check_path(path, error);
     if (status != GLINT_OK) return status;
     if (!gi_image_is_png(path)) return save_afterwards(scene, &area, desc, path, save, error);
     GlintRecipe *made = NULL;
     GlintSaveDesc own = *save;
-    if (save->recipe == NULL) status = glint_scene_recipe(scene, desc, false, &made, error);
+    /* A recipe has no word for a camera that is not the scene's. */
+    bool makes = save->recipe == NULL && desc->camera == NULL;
+    if (makes) status = glint_scene_recipe(scene, desc, false, &made, error);
     if (made != NULL) own.recipe = made;
     if (status == GLINT_OK) status = save_png(scene, &area, &target, desc, path, &own, error);
     glint_recipe_destroy(made);

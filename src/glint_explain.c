@@ -13,7 +13,8 @@ GlintStatus glint_explain(GlintScene *scene, const GlintRenderDesc *desc,
     if (sink->only_sample < 0) return ARGUMENT(error, "only_sample is negative");
     GiRenderArea area;
     GiRenderTarget target;
-    GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, error);
+    GiView view;
+    GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, &view, error);
     if (status != GLINT_OK) return status;
     status = gi_explain(&scene->world, &area, desc->monitor, &target, sink);
     return status == GLINT_OK ? status

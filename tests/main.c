@@ -47,6 +47,7 @@
     X(outputs) \
     X(save) \
     X(flight) \
+    X(camera) \
     X(golden) \
     X(explain) \
     X(tiles) \
@@ -56,7 +57,10 @@
     X(exr) \
     X(elements) \
     X(files) \
-    X(triangle)
+    X(triangle) \
+    X(watch) \
+    X(watch_camera) \
+    X(watch_screen)
 /* clang-format on */
 
 #define DECLARE(room) extern const GiTest tests_##room[];

@@ -232,5 +232,25 @@ static void reference_scenes(void) {
     CHECK(scene_count > 70);
 }
 
+/* What is missing, where it would have to be. */
+static void missing_ones(void) {
+    static const char bad[] = BEGIN MESH("gone/away.obj") MESH("near.obj") MESH("naer.obj")
+        MESH("gone/away.obj") "<cubemap><filename>/no/where.pfm</filename></cubemap>" END;
+    make_folders();
+    GlintSceneDesc desc = glint_scene_desc_default();
+    GlintScene *scene = NULL;
+    CHECK_INT(glint_scene_create(&desc, &scene, NULL), GLINT_OK);
+    CHECK(glint_scene_missing_file(scene, 0) == NULL);
+    CHECK_INT(glint_scene_load_memory(
+                  scene, bad, sizeof bad - 1, in_scratch("a/b/scene.xml"), NULL, NULL),
+        GLINT_ERROR_SCENE);
+    CHECK_TEXT(glint_scene_missing_file(scene, 0), in_scratch("a/b/gone/away.obj"));
+    CHECK_TEXT(glint_scene_missing_file(scene, 1), in_scratch("a/b/naer.obj"));
+    CHECK_TEXT(glint_scene_missing_file(scene, 2), "/no/where.pfm");
+    CHECK(glint_scene_missing_file(scene, 3) == NULL);
+    CHECK(glint_scene_missing_file(scene, SIZE_MAX) == NULL);
+    glint_scene_destroy(scene);
+}
+
 const GiTest tests_files[] = {TEST(places), TEST(missing_and_broken), TEST(environments),
-    TEST(textures), TEST(failing_allocator), TEST(reference_scenes), TEST_END};
+    TEST(textures), TEST(failing_allocator), TEST(missing_ones), TEST(reference_scenes), TEST_END};

@@ -199,7 +199,8 @@ GLINT_API void glint_scene_destroy(GlintScene *scene);
 
 /* Reads a scene file into an empty scene. Every error of the file is reported through the
  * scene's diagnostic callback; the first is also left in *error. After an error the scene can
- * only be destroyed. Errors: SCENE, FILE, MEMORY, CANCELLED. monitor may be null. */
+ * only be asked for its files and be destroyed. Errors: SCENE, FILE, MEMORY, CANCELLED. monitor may
+ * be null. */
 GLINT_API GlintStatus glint_scene_load_file(
     GlintScene *scene, const char *path, const GlintMonitor *monitor, GlintError *error);
 
@@ -256,6 +257,11 @@ typedef struct GlintSceneFile {
  * loaded, each once; also after a load that failed, when these are the files that were found.
  * False, and *file untouched, behind the last. The strings live as long as the scene. */
 GLINT_API bool glint_scene_file(const GlintScene *scene, int index, GlintSceneFile *file);
+
+/* The files that the scene names and that were not found, each once, after a load that failed: the
+ * place where each was looked for first. Null at an index >= the number of them. The string lives
+ * as long as the scene. */
+GLINT_API const char *glint_scene_missing_file(const GlintScene *scene, size_t index);
 
 /* ---- by calls */
 
@@ -461,6 +467,10 @@ typedef struct GlintSceneInfo {
 
 GLINT_API void glint_scene_info(const GlintScene *scene, GlintSceneInfo *info);
 
+/* The scene's camera, as a desc that can be changed and drawn with. A projection normal that the
+ * scene does not give is 0 0 0. False when the scene has no camera. */
+GLINT_API bool glint_scene_camera(const GlintScene *scene, GlintCameraDesc *camera);
+
 /* Where samples of large lights, environments and paths fall. */
 typedef enum GlintSampling {
     GLINT_SAMPLING_SOBOL, /* scrambled low-discrepancy sequences */
@@ -486,6 +496,10 @@ typedef struct GlintRenderDesc {
     uint32_t *surface; /* GlintSurfaceId of the first sample's surface; 0: none */
     GlintSampling sampling;      /* SOBOL */
     const GlintMonitor *monitor; /* null */
+    /* Drawn with in the place of the scene's camera: the picture is the one of a scene with this
+     * camera, to the last bit, and nothing is built anew. null (default): the scene's. Read before
+     * the call returns. */
+    const GlintCameraDesc *camera;
     int cookie;
 } GlintRenderDesc;
 
@@ -511,6 +525,13 @@ typedef struct GlintHit {
                                a rectangle light of a dialect where these can be seen */
     GlintShaderId shader;
 } GlintHit;
+
+/* The ray through a place of the window: a runs from 0 at its left to 1, b from 0 at its bottom.
+ * The middle of the pixel (x, y) of a picture of w x h pixels, y from the top, is a = (x + 0.5) /
+ * w, b = 1 - (y + 0.5) / h. t_min is 0 and t_max INFINITY; the direction has length 1. Errors:
+ * ARGUMENT (a camera that glint_scene_set_camera would refuse). */
+GLINT_API GlintStatus glint_camera_ray(
+    const GlintCameraDesc *camera, double a, double b, GlintRay *ray, GlintError *error);
 
 /* The nearest hit of a ray in a committed scene. False: none, and *hit is untouched. Any number of
  * threads may call it. Arguments are not checked in release builds. */
@@ -792,7 +813,7 @@ GLINT_API GlintStatus glint_image_save(
     const GlintImage *image, const char *path, const GlintSaveDesc *desc, GlintError *error);
 
 /* Draws and writes path: what glint_render, glint_scene_recipe without files (unless save has a
- * recipe) and glint_image_save would write, to the byte. A
+ * recipe, or desc a camera) and glint_image_save would write, to the byte. A
  * PNG is encoded while it is drawn, and its pixels need no memory beyond what is under way. Both
  * descs count, but for save's thread_count: the scene's threads do it. One call at a time per
  * scene. Errors: ARGUMENT, FILE, MEMORY, THREAD, CANCELLED (nothing is then written). */
@@ -811,7 +832,8 @@ GLINT_API GlintStatus glint_image_encode_png(const GlintImage *image, const Glin
 
 /* The recipe of what glint_render would draw now, to be destroyed by the caller. with_files: with
  * the content of the scene and of all files that it names, for which it must have been loaded with
- * keep_sources. Errors: ARGUMENT, FILE (a file has changed since, or cannot be read), MEMORY. */
+ * keep_sources. Errors: ARGUMENT (also a desc with a camera), FILE (a file has changed since, or
+ * cannot be read), MEMORY. */
 GLINT_API GlintStatus glint_scene_recipe(const GlintScene *scene, const GlintRenderDesc *desc,
     bool with_files, GlintRecipe **recipe, GlintError *error);
 

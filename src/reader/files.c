@@ -13,6 +13,31 @@ enum { PATH_LIMIT = 8192, FOLDER_LIMIT = 256, VISIT_LIMIT = 10000 };
 
 void gi_files_reset(GiFiles *files, GiMemory *memory) { gi_array_free(memory, &files->loaded); }
 
+/* ---------------------------------------------------------------- names */
+
+const char *gi_file_names_at(const GiFileNames *names, size_t index) {
+    return index < names->first.count ? names->text.data + names->first.data[index] : NULL;
+}
+
+bool gi_file_names_add(GiFileNames *names, GiMemory *memory, const char *path) {
+    for (size_t i = 0; i < names->first.count; i++) {
+        if (strcmp(gi_file_names_at(names, i), path) == 0) return true;
+    }
+    size_t first = names->text.count, size = strlen(path) + 1;
+    if (!gi_array_reserve(memory, &names->text, size) ||
+        !gi_array_push(memory, &names->first, first)) {
+        return false;
+    }
+    memcpy(names->text.data + first, path, size);
+    names->text.count += size;
+    return true;
+}
+
+void gi_file_names_reset(GiFileNames *names, GiMemory *memory) {
+    gi_array_free(memory, &names->text);
+    gi_array_free(memory, &names->first);
+}
+
 /* ---------------------------------------------------------------- folders
  * A folder is a path without a slash at its end; "" is the current one, "/" the root. */
 
@@ -98,6 +123,15 @@ static bool find(const char *scene, const char *name, char path[PATH_LIMIT], GiF
     return false;
 }
 
+/* Tells whoever asked where a file that is not there was looked for first. */
+static void note_missing(GiReader *reader, const char *name) {
+    GiFileNames *names = reader->source->missing_files;
+    char folder[PATH_LIMIT], path[PATH_LIMIT];
+    folder_of(reader->source->name, folder);
+    if (names == NULL || !join(name[0] == '/' ? "" : folder, name, path)) return;
+    if (!gi_file_names_add(names, reader->memory, path)) gi_reader_out_of_memory(reader);
+}
+
 /* ---------------------------------------------------------------- what is said */
 
 /* The end of a path tells more than its beginning. */
@@ -149,6 +183,7 @@ static bool find_near(const char *scene, const char *name, NearMiss *near) {
 
 static void report_missing(GiReader *reader, const char *name, GiPlace place, int length) {
     GiReport *report = &reader->report;
+    note_missing(reader, name);
     if (gi_report_is_full(report)) {
         report->error_count++;
         return;

@@ -50,7 +50,8 @@ GlintStatus gi_explain(const GiWorld *world, const GiRenderArea *area, const Gli
         .target = {.samples = target->samples,
             .light = target->light,
             .sampling = target->sampling,
-            .technique = target->technique},
+            .technique = target->technique,
+            .view = target->view},
         .control = {&stop, monitor, 0}};
     explainer.target.color = explainer.color;
     explainer.target.record = &explainer.record;

@@ -155,6 +155,11 @@ static inline double gi_stage_radiance(const GiShading *at) {
     return path || at->rules->radiance_over_pi ? gi_bsdf_radiometric(at) : 1;
 }
 
+/* The camera that is drawn with. */
+static inline const GiView *gi_stage_view(const GiStage *stage) {
+    return stage->target->view != NULL ? stage->target->view : &stage->world->view;
+}
+
 /* ---- tile.c */
 
 /* The tile's pixels that lie in the picture, or in the part of it that is drawn. */

@@ -95,6 +95,7 @@ static inline int minimum(int a, int b) { return a < b ? a : b; }
 /* Fills the bundle with the rays of a block's pixels, packet by packet. */
 static void set_rays(const GiStage *stage, const GiTileExtent *extent, int block_x, int block_y) {
     const GiWorld *world = stage->world;
+    const GiView *view = gi_stage_view(stage);
     GiTileScratch *scratch = stage->scratch;
     GiBundle *bundle = &scratch->bundle;
     int count = 0;
@@ -112,11 +113,12 @@ static void set_rays(const GiStage *stage, const GiTileExtent *extent, int block
         }
     }
     bundle->count = count;
-    bundle->apex = world->view.eye;
-    bundle->side = world->view.across;
-    world->kernel->view(&world->view, scratch->a, scratch->b, bundle);
+    bundle->apex = view->eye;
+    bundle->side = view->across;
+    world->kernel->view(view, scratch->a, scratch->b, bundle);
+    double begin = gi_world_eye_error(world, view->eye);
     for (int i = 0; i < count; i++) {
-        bundle->t_min[i] = world->eye_error;
+        bundle->t_min[i] = begin;
         bundle->t_max[i] = INFINITY;
         bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
     }
@@ -128,7 +130,7 @@ int gi_tile_trace_block(
     GiBundle *bundle = &stage->scratch->bundle;
     if (gi_stage_stopped(stage)) return 0;
     set_rays(stage, extent, block_x, block_y);
-    if (world->view.parallel) {
+    if (gi_stage_view(stage)->parallel) {
         trace_apart(stage);
     } else {
         world->kernel->bundle_closest(&world->trace, bundle);
