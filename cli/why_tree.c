@@ -290,11 +290,13 @@ static void print_branch(const CliWhy *why, const GlintExplainSample *sample,
         print_ray(why, sample, branch->child, branch, indent);
         return;
     }
-    /* A path that could have gone elsewhere is no news, nor is a look for lights that led nowhere. */
+    /* A path that could have gone elsewhere is no news, nor is a look for lights that led nowhere.
+     */
     if (branch->layer == GLINT_NONE && branch->fate != GLINT_BRANCH_ENDED) return;
     if (branch->layer == GLINT_NONE) {
-        cli_why_line(why, indent, "the path ends here by chance: it would have gone on with %.6g "
-                                  "(Russian roulette)",
+        cli_why_line(why, indent,
+            "the path ends here by chance: it would have gone on with %.6g "
+            "(Russian roulette)",
             branch->survival);
         return;
     }
@@ -316,8 +318,8 @@ static void print_own(
     }
 }
 
-static void print_heading(const CliWhy *why, const GlintExplainRay *ray,
-    const GlintExplainBranch *branch, int indent) {
+static void print_heading(
+    const CliWhy *why, const GlintExplainRay *ray, const GlintExplainBranch *branch, int indent) {
     if (branch == NULL) {
         cli_why_line(why, indent, "camera ray from %s along %s", cli_why_vec(ray->origin),
             cli_why_vec(ray->direction));
