@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# `glint why`: the text names what blocks a light, JSON reads back and adds up to the picture, OBJ is
-# well-formed, and the page works in a browser, where there is one.
+# `glint why`: the text names what blocks a light, JSON reads back and adds up to the picture, OBJ
+# is well-formed, and the page works in a browser, where there is one.
 #   cli_why_test.sh PATH/TO/glint
 # Ends with "N passed, N failed".
 set -u
