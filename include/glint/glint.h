@@ -565,6 +565,30 @@ GLINT_API GlintStatus glint_image_encode_png(const GlintImage *image, const Glin
 /* The 8-bit values that the PNG would hold: width * height * 3 bytes. */
 GLINT_API void glint_image_to_rgb8(const GlintImage *image, uint8_t *rgb);
 
+/* ---------------------------------------------------------------- scene files as text */
+
+typedef struct GlintFormatDesc {
+    const GlintAllocator *allocator; /* null (default): the C library's */
+    GlintDiagnosticFn diagnostic;    /* what is wrong with the file; null (default): only *error */
+    void *diagnostic_user;
+    int cookie;
+} GlintFormatDesc;
+
+GLINT_API GlintFormatDesc glint_format_desc_default(void);
+
+/* Lays a scene file out as docs/format-tools.md says and hands the bytes, UTF-8, to sink. Comments
+ * and the spelling of numbers stay as they are, and so does all that the file means. Laid out
+ * again it does not change. The files that the scene names are not opened. name stands for the path
+ * in messages. Nothing is handed out unless the file is a good scene. Any number of threads may
+ * call it. Errors: ARGUMENT, SCENE, FILE (sink returned false), MEMORY. */
+GLINT_API GlintStatus glint_format(const void *bytes, size_t size, const char *name,
+    const GlintFormatDesc *desc, GlintSinkFn sink, void *user, GlintError *error);
+
+/* Writes a file whole or not at all: under a temporary name that is then changed to path. A file
+ * that is replaced keeps its permissions, a link its place. Errors: ARGUMENT, FILE, MEMORY. */
+GLINT_API GlintStatus glint_file_save(
+    const char *path, const void *bytes, size_t size, GlintError *error);
+
 #ifdef __cplusplus
 }
 #endif
