@@ -54,6 +54,7 @@
     X(exr) \
     X(elements) \
     X(files) \
+    X(format) \
     X(triangle)
 /* clang-format on */
 
