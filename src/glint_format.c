@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The public functions of scene files as text: they check arguments and call src/format. */
+ * The public functions of scene files as text, which call src/format, and of what may stand in
+ * them, which show the tables of the reader. */
 #include "base/cookie.h"
 #include "base/error.h"
 #include "format/layout.h"
@@ -57,4 +58,81 @@ GlintStatus glint_file_save(const char *path, const void *bytes, size_t size, Gl
     if (status != GLINT_OK) return status;
     gi_file_write(&writer, bytes, size);
     return gi_file_write_commit(&writer, error);
+}
+
+/* ---------------------------------------------------------------- tables */
+
+_Static_assert((int)GLINT_ELEMENT_NUMBER == GI_KIND_REAL &&
+                   (int)GLINT_ELEMENT_SCENE == GI_KIND_SCENE &&
+                   (int)GLINT_ELEMENT_INTEGRATOR == GI_KIND_INTEGRATOR,
+    "the public kinds are the reader's");
+_Static_assert((int)GLINT_RANGE_POSITIVE == GI_CHECK_POSITIVE &&
+                   (int)GLINT_RANGE_ANGLE == GI_CHECK_ANGLE &&
+                   (int)GLINT_RANGE_PIXELS == GI_CHECK_IMAGE_SIZE,
+    "the public ranges are the reader's");
+
+/* Whether an index lies before the null name that ends a table. */
+static bool has_element(int index) {
+    for (int i = 0; i <= index; i++) {
+        if (gi_elements[i].name == NULL) return false;
+    }
+    return index >= 0;
+}
+
+static bool has_type(int index) {
+    for (int i = 0; i <= index; i++) {
+        if (gi_types[i].name == NULL) return false;
+    }
+    return index >= 0;
+}
+
+bool glint_element_at(int index, GlintElement *element) {
+    if (!has_element(index)) return false;
+    const GiElement *row = &gi_elements[index];
+    *element = (GlintElement){.name = row->name,
+        .kind = (GlintElementKind)row->kind,
+        .range = (GlintElementRange)row->check,
+        .required = row->required,
+        .default_text = row->default_text,
+        .example = row->example != NULL ? row->example : row->default_text,
+        .choices = row->choices,
+        .alias_of = row->alias_of,
+        .default_type = row->type,
+        .years = row->years,
+        .help = row->help};
+    return true;
+}
+
+bool glint_element_type_at(int index, GlintElementType *type) {
+    if (!has_type(index)) return false;
+    const GiType *row = &gi_types[index];
+    *type = (GlintElementType){.name = row->name,
+        .kind = (GlintElementKind)row->kind,
+        .alias_of = row->alias_of,
+        .years = row->years,
+        .help = row->help};
+    return true;
+}
+
+bool glint_element_fits(int element, int type) {
+    if (!has_element(element) || (type != -1 && !has_type(type))) return false;
+    GiContexts place = type == -1 ? GI_IN_SCENE : gi_types[type].context;
+    return (gi_elements[element].contexts & place) != 0;
+}
+
+const char *glint_element_kind_text(GlintElementKind kind) { return gi_kind_text((GiKind)kind); }
+
+const char *glint_element_range_text(GlintElementRange range) {
+    switch (range) {
+    case GLINT_RANGE_ANY: break;
+    case GLINT_RANGE_POSITIVE: return "greater than 0";
+    case GLINT_RANGE_SAMPLES: return "0 to 65536";
+    case GLINT_RANGE_NOT_ZERO: return "not 0 0 0";
+    case GLINT_RANGE_NO_ZEROS: return "no number 0";
+    case GLINT_RANGE_ANGLE: return "greater than 0, less than 180";
+    case GLINT_RANGE_BIT: return "0 or 1";
+    case GLINT_RANGE_DEPTH: return "1 to 4096";
+    case GLINT_RANGE_PIXELS: return "each at least 1, together at most 2^28";
+    }
+    return NULL;
 }
