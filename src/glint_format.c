@@ -4,6 +4,7 @@
 #include "base/cookie.h"
 #include "base/error.h"
 #include "format/layout.h"
+#include "format/upgrade.h"
 #include "port/file.h"
 #include "port/machine.h"
 
@@ -41,6 +42,43 @@ GlintStatus glint_format(const void *bytes, size_t size, const char *name,
         .diagnostic_user = desc->diagnostic_user};
     GlintStatus status = gi_document_load(&document, &source, error);
     if (status == GLINT_OK && !gi_layout_write(&document, &text)) status = gi_error_memory(error);
+    if (status == GLINT_OK) {
+        status = hand_out((GiSpan){text.data, text.count}, sink, user, error);
+    }
+    gi_array_free(&memory, &text);
+    gi_document_reset(&document);
+    return status;
+}
+
+GlintUpgradeDesc glint_upgrade_desc_default(void) {
+    return (GlintUpgradeDesc){.dialect = GLINT_DIALECT_AUTO, .cookie = GI_COOKIE};
+}
+
+GlintStatus glint_upgrade(const void *bytes, size_t size, const char *name,
+    const GlintUpgradeDesc *desc, GlintSinkFn sink, void *user, GlintDialect *dialect,
+    GlintError *error) {
+    if ((bytes == NULL && size > 0) || name == NULL || desc == NULL || sink == NULL) {
+        return ARGUMENT(error, "bytes, name, desc or sink is null");
+    }
+    if (desc->cookie != GI_COOKIE) {
+        return ARGUMENT(error, "the desc was not made by glint_upgrade_desc_default");
+    }
+    if ((unsigned)desc->dialect >= GLINT_DIALECT_COUNT) return ARGUMENT(error, "no such dialect");
+    GiMemory memory;
+    init_memory(&memory, desc->allocator);
+    GiDocument document = {.memory = &memory};
+    GiText text = {0};
+    const GiDocumentSource source = {.bytes = bytes,
+        .size = size,
+        .name = name,
+        .dialect = desc->dialect,
+        .diagnostic = desc->diagnostic,
+        .diagnostic_user = desc->diagnostic_user};
+    GlintStatus status = gi_document_load(&document, &source, error);
+    if (status == GLINT_OK && dialect != NULL) *dialect = document.scene.dialect;
+    if (status == GLINT_OK) {
+        status = gi_upgrade_write(&document, desc->change, desc->change_user, &text, error);
+    }
     if (status == GLINT_OK) {
         status = hand_out((GiSpan){text.data, text.count}, sink, user, error);
     }

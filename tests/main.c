@@ -55,7 +55,8 @@
     X(elements) \
     X(files) \
     X(format) \
-    X(triangle)
+    X(triangle) \
+    X(upgrade)
 /* clang-format on */
 
 #define DECLARE(room) extern const GiTest tests_##room[];

@@ -658,6 +658,43 @@ GLINT_API GlintFormatDesc glint_format_desc_default(void);
 GLINT_API GlintStatus glint_format(const void *bytes, size_t size, const char *name,
     const GlintFormatDesc *desc, GlintSinkFn sink, void *user, GlintError *error);
 
+/* ---- upgrading */
+
+typedef enum GlintChangeKind {
+    GLINT_CHANGE_SAME,     /* written otherwise, and the picture is the same to the last bit */
+    GLINT_CHANGE_ROUNDING, /* the same but for the last digits */
+    GLINT_CHANGE_DIFFERENT /* the rules have no counterpart: pixels may differ */
+} GlintChangeKind;
+
+typedef struct GlintChange {
+    GlintChangeKind kind;
+    int64_t line, column; /* in the old text, from 1 */
+    const char *message;  /* what changes, and why */
+} GlintChange;
+
+typedef void (*GlintChangeFn)(void *user, const GlintChange *change);
+
+typedef struct GlintUpgradeDesc {
+    GlintDialect dialect; /* of the old text; AUTO (default): what it says or shows */
+    GlintChangeFn change; /* each change, in the order of the text; null (default): none is told */
+    void *change_user;
+    const GlintAllocator *allocator; /* null (default): the C library's */
+    GlintDiagnosticFn diagnostic;    /* as of GlintFormatDesc */
+    void *diagnostic_user;
+    int cookie;
+} GlintUpgradeDesc;
+
+GLINT_API GlintUpgradeDesc glint_upgrade_desc_default(void);
+
+/* Rewrites a scene of any dialect by the rules of `glint` so that it draws the same picture, and
+ * hands the bytes, UTF-8, to sink. What the rules do not allow is told as GLINT_CHANGE_DIFFERENT; a
+ * scene of which no change but GLINT_CHANGE_SAME is told draws the same bits. Only what has to
+ * change is touched: comments, layout and numbers stay. docs/format-tools.md lists what is done.
+ * *dialect, when not null, becomes the old text's. The rest is as with glint_format. */
+GLINT_API GlintStatus glint_upgrade(const void *bytes, size_t size, const char *name,
+    const GlintUpgradeDesc *desc, GlintSinkFn sink, void *user, GlintDialect *dialect,
+    GlintError *error);
+
 /* Writes a file whole or not at all: under a temporary name that is then changed to path. A file
  * that is replaced keeps its permissions, a link its place. Errors: ARGUMENT, FILE, MEMORY. */
 GLINT_API GlintStatus glint_file_save(

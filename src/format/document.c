@@ -228,9 +228,7 @@ GlintStatus gi_document_load(
     GiMemory *memory = document->memory;
     memset(document, 0, sizeof *document);
     document->memory = memory;
-    bool ready = gi_scene_init(&document->scene, memory);
-    ready = gi_sources_init(&document->sources, memory, source->name) && ready;
-    if (!ready) return gi_error_memory(error);
+    if (!gi_scene_init(&document->scene, memory)) return gi_error_memory(error);
     Bytes bytes = {source->bytes, source->size};
     const GiReaderSource reading = {.read = read_bytes,
         .user = &bytes,
@@ -240,8 +238,7 @@ GlintStatus gi_document_load(
         .diagnostic = source->diagnostic,
         .diagnostic_user = source->diagnostic_user,
         .thread_count = 1,
-        .without_files = true,
-        .sources = &document->sources};
+        .without_files = true};
     GlintStatus status = gi_reader_load(&document->scene, &reading, NULL, error);
     if (status != GLINT_OK) return status;
     bool good = gi_encoding_to_utf8(memory, source->bytes, source->size, &document->text);
@@ -252,5 +249,4 @@ void gi_document_reset(GiDocument *document) {
     gi_array_free(document->memory, &document->text);
     gi_array_free(document->memory, &document->tokens);
     gi_scene_reset(&document->scene);
-    gi_sources_reset(&document->sources);
 }

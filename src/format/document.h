@@ -36,7 +36,6 @@ typedef struct GiDocument {
     GiText text; /* UTF-8, lines end with a line feed; without a byte order mark */
     GI_ARRAY(GiToken) tokens;
     GiScene scene; /* what the reader made of it, without the files that it names */
-    GiSources sources;
 } GiDocument;
 
 typedef struct GiDocumentSource {
