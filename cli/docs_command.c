@@ -95,7 +95,8 @@ const CliVerb cli_verb_docs = {.name = "docs",
     .operands = "[NAME...]",
     .summary = "tell what an element or type of a scene is",
     .about = "Tells of an element or type where it may stand, what it takes, its default and\n"
-             "range, the years it is from, and shows an example. Without a NAME it lists all.",
+             "range, the years it is from, and shows an example. Without a NAME it lists\n"
+             "all.",
     .example_text = "what a cone takes",
     .example = "glint docs Cone",
     .options = options,

@@ -11,9 +11,10 @@
 static const char *bold(void) { return cli_message_output_in_colour() ? "\033[1m" : ""; }
 static const char *plain(void) { return cli_message_output_in_colour() ? "\033[0m" : ""; }
 
-/* "number" of "a number" */
+/* "number" of "a number"; "text" has no article. */
 static const char *noun(GlintElementKind kind) {
-    return strchr(glint_element_kind_text(kind), ' ') + 1;
+    const char *text = glint_element_kind_text(kind), *blank = strchr(text, ' ');
+    return blank != NULL ? blank + 1 : text;
 }
 
 /* "2017, 2018 and 2019" */
@@ -171,7 +172,7 @@ static void print_type_markdown(int index) {
         puts(".\n");
         return;
     }
-    printf("%s type: %s. Years: ", glint_element_kind_text(type.kind), type.help);
+    printf("The type of %s: %s. Years: ", glint_element_kind_text(type.kind), type.help);
     print_years(type.years);
     puts(".\n");
     print_children_markdown(index);

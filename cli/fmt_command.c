@@ -97,10 +97,11 @@ static Options defaults;
 const CliVerb cli_verb_fmt = {.name = "fmt",
     .operands = "SCENE...",
     .summary = "lay scenes out in one style",
-    .about = "Lays scenes out: a child a line, two blanks deeper than its parent. What a scene\n"
-             "means, its comments and its numbers stay as they are. A file that changes is\n"
-             "replaced and named; one with errors is left alone. A SCENE is an XML file, a\n"
-             "folder (all *.xml in it), or - for standard input, which goes to standard output.",
+    .about = "Lays scenes out: a child a line, two blanks deeper than its parent. What a\n"
+             "scene means, its comments and its numbers stay as they are. A file that\n"
+             "changes is replaced and named; one with errors is left alone. A SCENE is an\n"
+             "XML file, a folder (all *.xml in it), or - for standard input, which goes to\n"
+             "standard output.",
     .example_text = "see what would change, then change it",
     .example = "glint fmt --diff scenes/solids.xml && glint fmt scenes/solids.xml",
     .options = options,

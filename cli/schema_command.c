@@ -51,8 +51,8 @@ static Options defaults;
 const CliVerb cli_verb_schema = {.name = "schema",
     .operands = "",
     .summary = "write a schema of scenes, for editors",
-    .about = "Writes a schema of scenes to standard output, with which an editor completes names,\n"
-             "shows what they mean and marks mistakes.",
+    .about = "Writes a schema of scenes to standard output, with which an editor completes\n"
+             "names, shows what they mean and marks mistakes.",
     .example_text = "check a scene with the schema",
     .example = "glint schema > glint.rng && xmllint --noout --relaxng glint.rng a.xml",
     .options = options,

@@ -3,6 +3,7 @@
 #include "bytes.h"
 #include "interrupt.h"
 #include "message.h"
+#include "upgrade_compare.h"
 #include "value.h"
 
 #include "glint/glint.h"
@@ -13,7 +14,7 @@
 typedef struct Options {
     const char *output; /* null: standard output */
     GlintDialect dialect;
-    bool check, verbose;
+    bool check, compare, verbose;
 } Options;
 
 static CliStatus set_to(void *values, const char *value) {
@@ -35,6 +36,12 @@ static CliStatus set_dialect(void *values, const char *value) {
 static CliStatus set_check(void *values, const char *value) {
     (void)value;
     ((Options *)values)->check = true;
+    return CLI_OK;
+}
+
+static CliStatus set_compare(void *values, const char *value) {
+    (void)value;
+    ((Options *)values)->compare = true;
     return CLI_OK;
 }
 
@@ -109,9 +116,11 @@ static CliStatus upgrade(const Options *options, const CliJob *job) {
             cli_bytes_append, &new, &dialect, &error);
         if (result == GLINT_OK) {
             sum_up(&changes, dialect);
-            status = options->check ? CLI_OK : save(options, &new);
             bool differs = changes.counts[GLINT_CHANGE_DIFFERENT] > 0;
-            if (options->check && differs) status = CLI_INPUT;
+            status = !options->check ? save(options, &new) : differs ? CLI_INPUT : CLI_OK;
+            if (options->compare) {
+                status = cli_status_worse(status, cli_compare_scenes(job, &old, dialect, &new));
+            }
         } else {
             status = cli_message_failure(cli_job_name(job), &findings, &error);
         }
@@ -145,6 +154,8 @@ static const CliOption options[] = {
         "the year of the scene, where it does not show", set_dialect},
     {0, "check", NULL, CLI_FORM_NONE, messages,
         "write nothing; exit with 1 if pictures may differ", set_check},
+    {0, "compare", NULL, CLI_FORM_NONE, messages,
+        "draw both, small, and tell how much they differ", set_compare},
     {'v', "verbose", NULL, CLI_FORM_NONE, messages,
         "tell also of changes that leave the picture the same", set_verbose},
 };
@@ -154,9 +165,9 @@ static Options defaults = {.dialect = GLINT_DIALECT_AUTO};
 const CliVerb cli_verb_upgrade = {.name = "upgrade",
     .operands = "SCENE",
     .summary = "rewrite an old scene by today's rules",
-    .about = "Rewrites a scene of a year of the course by the rules of glint, so that it draws the\n"
-             "same picture. Where those rules do not allow it, standard error tells what differs,\n"
-             "with the line and the reason. Comments, layout and numbers stay.",
+    .about = "Rewrites a scene of a year of the course by the rules of glint, so that it\n"
+             "draws the same picture. Where those rules do not allow it, standard error tells\n"
+             "what may differ, with the line and the reason. Comments and layout stay.",
     .example_text = "a new file, and what is not the same in it",
     .example = "glint upgrade -o new.xml old.xml",
     .options = options,

@@ -63,12 +63,12 @@ static void children(void) {
         BEGIN "  <surface type=\"Sphere\"><radius>2</radius></surface>\n</scene>\n");
     LAYOUT(IN("<surface type='Sphere'></surface><light ></light>"),
         BEGIN "  <surface type=\"Sphere\"/>\n  <light/>\n</scene>\n");
-    /* 100 columns are not too long, 101 are. */
+    /* 160 columns are not too long, 161 are. */
     static const char fits[] = "<light><position>1 1 1</position><intensity>1 1 1</intensity>"
                                "<falloff>none</falloff></light>";
-    char text[400], expected[400];
+    char text[500], expected[500];
     for (int more = 0; more < 2; more++) {
-        int digits = (int)(100 - 2 - strlen(fits) + 1) + more;
+        int digits = (int)(160 - 2 - strlen(fits) + 1) + more;
         snprintf(text, sizeof text,
             "<scene><camera/><image>4 2</image>\n<light><position>1 1 %0*d</position>"
             "<intensity>1 1 1</intensity><falloff>none</falloff></light></scene>",

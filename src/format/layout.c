@@ -7,7 +7,7 @@
 
 /* Deeper elements are not indented further, and comments beyond COLUMN_LIMIT not moved: what is
  * written stays in proportion to what was read. */
-enum { INDENT = 2, WIDTH = 100, TAB = 4, DEPTH_LIMIT = 50, COLUMN_LIMIT = 200 };
+enum { INDENT = 2, WIDTH = 160, TAB = 4, DEPTH_LIMIT = 50, COLUMN_LIMIT = 200 };
 
 typedef struct Layout {
     const GiDocument *document;

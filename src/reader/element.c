@@ -174,7 +174,7 @@ const GiElement gi_elements[] = {
 
 const GiType gi_types[] = {
     TYPE("PerspectiveCamera", CAMERA, CAMERA, CAMERA_PERSPECTIVE, GI_EVIDENCE_CAMERA_TYPE, NULL,
-        "rays start at viewPoint", FROM_2013),
+        "rays start at viewPoint", NULL),
     TYPE("ParallelCamera", CAMERA, CAMERA, CAMERA_PARALLEL, GI_EVIDENCE_CAMERA_TYPE, NULL,
         "rays run parallel to viewDir", "2013 2017b 2018b"),
     TYPE("OrthographicCamera", CAMERA, CAMERA, CAMERA_PARALLEL, GI_EVIDENCE_CAMERA_TYPE,
