@@ -60,8 +60,8 @@ typedef struct Middle {
 } Middle;
 
 static int slide(const Middle *m, int x, int y) {
-    while (x < m->old_count && y < m->new_count &&
-           same(m->old, m->first + x, m->new, m->first + y)) {
+    while (
+        x < m->old_count && y < m->new_count && same(m->old, m->first + x, m->new, m->first + y)) {
         x++;
         y++;
     }
@@ -148,7 +148,7 @@ static void print_line(const char *mark, const Line *line) {
 static void print_hunk(const Lines *old, const Lines *new, int *i, int *j) {
     int x = *i, y = *j, quiet = 0;
     while ((x < old->count || y < new->count) && quiet <= 2 * CONTEXT) {
-        bool minus = x < old->count && old->changed[x], plus = y < new->count && new->changed[y];
+        bool minus = x < old->count && old->changed[x], plus = y < new->count &&new->changed[y];
         quiet = minus || plus ? 0 : quiet + 1;
         x += minus || !plus;
         y += !minus;
@@ -173,8 +173,7 @@ static void print_hunk(const Lines *old, const Lines *new, int *i, int *j) {
 static void print(const char *name, const Lines *old, const Lines *new) {
     printf("--- %s\n+++ %s\n", name, name);
     for (int i = 0, j = 0; i < old->count || j < new->count;) {
-        bool change =
-            (i < old->count && old->changed[i]) || (j < new->count && new->changed[j]);
+        bool change = (i < old->count && old->changed[i]) || (j < new->count &&new->changed[j]);
         if (!change) {
             /* A hunk begins with the context of the change that comes next. */
             int ahead = 0;

@@ -27,7 +27,8 @@ static CliStatus set_format(void *values, const char *value) {
 }
 
 /* Prints what has this name, in this case or any. False: nothing has. */
-static bool print_named(const char *name, bool markdown, int (*compare)(const char *, const char *)) {
+static bool print_named(
+    const char *name, bool markdown, int (*compare)(const char *, const char *)) {
     GlintElement element;
     if (compare(name, "scene") == 0) {
         cli_docs_print_type(CLI_IN_SCENE, markdown);
@@ -61,8 +62,8 @@ static CliStatus refuse(const char *name) {
         cli_suggestion_add(&suggestion, type.name);
     }
     if (suggestion.best != NULL) {
-        cli_message_error("there is no element and no type '%s'; did you mean '%s'?", name,
-            suggestion.best);
+        cli_message_error(
+            "there is no element and no type '%s'; did you mean '%s'?", name, suggestion.best);
     } else {
         cli_message_error("there is no element and no type '%s'; glint docs lists them", name);
     }
@@ -85,8 +86,8 @@ static CliStatus run(void *values, const CliOperands *operands) {
 }
 
 static const CliOption options[] = {
-    {0, "format", "text|markdown", CLI_FORM_REQUIRED, "The page",
-        "for the screen, or for a file", set_format},
+    {0, "format", "text|markdown", CLI_FORM_REQUIRED, "The page", "for the screen, or for a file",
+        set_format},
 };
 
 static Options defaults;

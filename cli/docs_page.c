@@ -111,8 +111,8 @@ static void print_type_text(int index) {
 static void print_row_text(int index) {
     GlintElement element;
     glint_element_at(index, &element);
-    printf("%s%s%s: %s; %s\n", bold(), element.name, plain(),
-        glint_element_kind_text(element.kind), element.help);
+    printf("%s%s%s: %s; %s\n", bold(), element.name, plain(), glint_element_kind_text(element.kind),
+        element.help);
     if (element.alias_of != NULL) printf("  another word for %s\n", element.alias_of);
     fputs("  in: ", stdout);
     print_parents(index);
@@ -131,7 +131,8 @@ static void print_row_text(int index) {
     fputs("  types: ", stdout);
     print_types(element.kind, "", "");
     puts(element.default_type != NULL ? "" : " (one must be given)");
-    if (element.default_type != NULL) printf("  type when none is given: %s\n", element.default_type);
+    if (element.default_type != NULL)
+        printf("  type when none is given: %s\n", element.default_type);
     puts("\nExample:");
     cli_elements_print_example(element.name, cli_elements_next_type(element.kind, -1), "  ");
 }

@@ -61,8 +61,8 @@ static void print_child(const GlintElement *child, const char *before, int depth
     if (cli_element_is_object(child)) {
         print_object(child->name, cli_elements_next_type(child->kind, -1), before, depth);
     } else {
-        printf("%s%*s<%s>%s</%s>\n", before, 2 * depth, "", child->name, child->example,
-            child->name);
+        printf(
+            "%s%*s<%s>%s</%s>\n", before, 2 * depth, "", child->name, child->example, child->name);
     }
 }
 

@@ -87,8 +87,8 @@ static CliStatus run(void *values, const CliOperands *operands) {
 static const char layout[] = "The layout";
 
 static const CliOption options[] = {
-    {0, "check", NULL, CLI_FORM_NONE, layout,
-        "write nothing; name what would change, exit with 1", set_check},
+    {0, "check", NULL, CLI_FORM_NONE, layout, "write nothing; name what would change, exit with 1",
+        set_check},
     {0, "diff", NULL, CLI_FORM_NONE, layout, "write nothing; show what would change", set_diff},
 };
 

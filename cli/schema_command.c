@@ -26,8 +26,8 @@ static CliStatus set_dialect(void *values, const char *value) {
 static CliStatus run(void *values, const CliOperands *operands) {
     const Options *options = values;
     if (operands->count > 0) {
-        return cli_message_usage("schema takes no '%s': it writes to standard output",
-            operands->items[0]);
+        return cli_message_usage(
+            "schema takes no '%s': it writes to standard output", operands->items[0]);
     }
     if (options->format == 0) {
         cli_schema_print_rng(options->dialect);
@@ -41,7 +41,7 @@ static const char schema[] = "The schema";
 
 static const CliOption options[] = {
     {0, "format", "rng|xsd", CLI_FORM_REQUIRED, schema,
-        "RELAX NG (default) or XML Schema 1.0, which says less", set_format},
+        "RELAX NG (default), or XML Schema, which says less", set_format},
     {0, "dialect", "NAME", CLI_FORM_REQUIRED, schema,
         "only what a year has (default: what any has)", set_dialect},
 };

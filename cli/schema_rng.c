@@ -48,8 +48,8 @@ static void print_head(void) {
     for (int i = 0; (value = cli_schema_value_at(i)) != NULL; i++) {
         if (value->kind == GLINT_ELEMENT_WORD) continue;
         cli_schema_line(1, "<define name=\"value.%s\">", value->name);
-        cli_schema_line(2, "<data type=\"token\"><param name=\"pattern\">%s</param></data>",
-            value->pattern);
+        cli_schema_line(
+            2, "<data type=\"token\"><param name=\"pattern\">%s</param></data>", value->pattern);
         cli_schema_line(1, "</define>");
     }
 }
@@ -59,8 +59,8 @@ static void print_child(int depth, int index, int type) {
     glint_element_at(index, &child);
     bool in_scene = type == CLI_IN_SCENE;
     bool once = in_scene ? child.kind == GLINT_ELEMENT_CAMERA : child.required;
-    const char *times = cli_elements_repeats(&child) ? (once ? "oneOrMore" : "zeroOrMore")
-                                                     : "optional";
+    const char *times =
+        cli_elements_repeats(&child) ? (once ? "oneOrMore" : "zeroOrMore") : "optional";
     if (once && !cli_elements_repeats(&child)) {
         cli_schema_line(depth, "<ref name=\"element.%d\"/>", index);
     } else {
@@ -95,8 +95,8 @@ static void print_type(int index, GlintDialect dialect) {
     print_help(3, type.help);
     cli_schema_line(3, "<choice>");
     cli_schema_line(4, "<value>%s</value>", type.name);
-    cli_schema_line(4, "<data type=\"token\"><param name=\"pattern\">.*\\.%s</param></data>",
-        type.name);
+    cli_schema_line(
+        4, "<data type=\"token\"><param name=\"pattern\">.*\\.%s</param></data>", type.name);
     cli_schema_line(3, "</choice>");
     cli_schema_line(2, "</attribute>");
     cli_schema_line(2, "<ref name=\"content.%s\"/>", type.name);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Numbers as the reader takes them: 2, .5, 1., 1e-3, +2. XML Schema's own types would let in INF and
- * NaN and, depending on the checker, refuse "1.". */
+ * Numbers as the reader takes them: 2, .5, 1., 1e-3, +2. XML Schema's own types would let in INF
+ * and NaN and, depending on the checker, refuse "1.". */
 #include "schema.h"
 
 #include <stdarg.h>
@@ -25,8 +25,7 @@ static const CliSchemaValue values[] = {
     {"vector.long", GLINT_ELEMENT_VECTOR, GLINT_RANGE_NOT_ZERO,
         "(" NOT_ZERO " " NUMBER " " NUMBER "|" NUMBER " " NOT_ZERO " " NUMBER "|" NUMBER " " NUMBER
         " " NOT_ZERO ")"},
-    {"vector.full", GLINT_ELEMENT_VECTOR, GLINT_RANGE_NO_ZEROS,
-        NOT_ZERO " " NOT_ZERO " " NOT_ZERO},
+    {"vector.full", GLINT_ELEMENT_VECTOR, GLINT_RANGE_NO_ZEROS, NOT_ZERO " " NOT_ZERO " " NOT_ZERO},
     {"point", GLINT_ELEMENT_POINT, GLINT_RANGE_ANY, NUMBER " " NUMBER " " NUMBER},
     {"colour", GLINT_ELEMENT_COLOR, GLINT_RANGE_ANY, NUMBER " " NUMBER " " NUMBER},
     {"falloff", GLINT_ELEMENT_WORD, GLINT_RANGE_ANY, "none|inverse-square"},

@@ -51,7 +51,8 @@ static bool stands_in_kind(int element, GlintElementKind kind, GlintDialect dial
 static int next_in_kind(GlintElementKind kind, int element, GlintDialect dialect) {
     GlintElement row, other;
     for (int i = element + 1; glint_element_at(i, &row); i++) {
-        if (!cli_elements_of_year(row.years, dialect) || !stands_in_kind(i, kind, dialect)) continue;
+        if (!cli_elements_of_year(row.years, dialect) || !stands_in_kind(i, kind, dialect))
+            continue;
         bool again = false;
         for (int k = 0; k < i && !again; k++) {
             glint_element_at(k, &other);
@@ -68,8 +69,8 @@ static void print_child(int depth, int index, const char *times) {
     glint_element_at(index, &child);
     bool object = cli_element_is_object(&child);
     cli_schema_line(depth, "<xs:element name=\"%s\" type=\"%s%s\"%s>", child.name,
-        object ? "object." : "value.", object ? noun(child.kind) : cli_schema_value_of(&child)->name,
-        times);
+        object ? "object." : "value.",
+        object ? noun(child.kind) : cli_schema_value_of(&child)->name, times);
     print_help(depth + 1, child.help);
     cli_schema_line(depth, "</xs:element>");
 }

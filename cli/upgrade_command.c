@@ -20,8 +20,8 @@ typedef struct Options {
 static CliStatus set_to(void *values, const char *value) {
     (void)values;
     if (strcmp(value, glint_dialect_name(GLINT_DIALECT_GLINT)) == 0) return CLI_OK;
-    return cli_message_usage("--to takes glint, the only rules that are not a year's, not '%s'",
-        value);
+    return cli_message_usage(
+        "--to takes glint, the only rules that are not a year's, not '%s'", value);
 }
 
 static CliStatus set_output(void *values, const char *value) {
@@ -74,8 +74,8 @@ static void sum_up(const Changes *changes, GlintDialect dialect) {
     int different = changes->counts[GLINT_CHANGE_DIFFERENT];
     fprintf(stderr, "%s: from the rules of %s; ", changes->name, glint_dialect_name(dialect));
     if (different > 0) {
-        fprintf(stderr, "the picture may differ in %d %s", different,
-            different == 1 ? "way" : "ways");
+        fprintf(
+            stderr, "the picture may differ in %d %s", different, different == 1 ? "way" : "ways");
     } else if (rounded > 0) {
         fputs("the picture is the same up to rounding", stderr);
     } else {
@@ -112,8 +112,8 @@ static CliStatus upgrade(const Options *options, const CliJob *job) {
         desc.diagnostic_user = &findings;
         GlintError error;
         GlintDialect dialect = GLINT_DIALECT_AUTO;
-        GlintStatus result = glint_upgrade(old.data, old.size, cli_job_name(job), &desc,
-            cli_bytes_append, &new, &dialect, &error);
+        GlintStatus result = glint_upgrade(
+            old.data, old.size, cli_job_name(job), &desc, cli_bytes_append, &new, &dialect, &error);
         if (result == GLINT_OK) {
             sum_up(&changes, dialect);
             bool differs = changes.counts[GLINT_CHANGE_DIFFERENT] > 0;
@@ -147,15 +147,15 @@ static CliStatus run(void *values, const CliOperands *operands) {
 static const char scene[] = "The scene", messages[] = "Messages";
 
 static const CliOption options[] = {
-    {'o', "output", "FILE", CLI_FORM_REQUIRED, scene,
-        "write to FILE (default: standard output)", set_output},
+    {'o', "output", "FILE", CLI_FORM_REQUIRED, scene, "write to FILE (default: standard output)",
+        set_output},
     {0, "to", "glint", CLI_FORM_REQUIRED, scene, "the new rules; there are no others", set_to},
     {0, "dialect", "NAME", CLI_FORM_REQUIRED, scene,
         "the year of the scene, where it does not show", set_dialect},
-    {0, "check", NULL, CLI_FORM_NONE, messages,
-        "write nothing; exit with 1 if pictures may differ", set_check},
-    {0, "compare", NULL, CLI_FORM_NONE, messages,
-        "draw both, small, and tell how much they differ", set_compare},
+    {0, "check", NULL, CLI_FORM_NONE, messages, "write nothing; exit with 1 if pictures may differ",
+        set_check},
+    {0, "compare", NULL, CLI_FORM_NONE, messages, "draw both, small, and tell how much they differ",
+        set_compare},
     {'v', "verbose", NULL, CLI_FORM_NONE, messages,
         "tell also of changes that leave the picture the same", set_verbose},
 };

@@ -18,8 +18,8 @@ static bool on_cancelled(void *user) {
     return cli_interrupt_seen();
 }
 
-static GlintStatus draw(GlintScene *scene, const CliBytes *text, const char *name,
-    Picture *picture, GlintError *error) {
+static GlintStatus draw(GlintScene *scene, const CliBytes *text, const char *name, Picture *picture,
+    GlintError *error) {
     const GlintMonitor monitor = {.cancelled = on_cancelled};
     GlintStatus status =
         glint_scene_load_memory(scene, text->data, text->size, name, &monitor, error);
@@ -46,8 +46,8 @@ static GlintStatus draw(GlintScene *scene, const CliBytes *text, const char *nam
 }
 
 /* The scene's findings go to standard error, as when it is drawn. */
-static CliStatus load(const CliJob *job, const CliBytes *text, GlintDialect dialect,
-    Picture *picture) {
+static CliStatus load(
+    const CliJob *job, const CliBytes *text, GlintDialect dialect, Picture *picture) {
     CliFindings findings = {0};
     GlintSceneDesc desc = glint_scene_desc_default();
     desc.dialect = dialect;

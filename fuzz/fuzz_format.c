@@ -15,8 +15,8 @@ static void require(bool condition, const char *what) {
 }
 
 /* False when the reader refuses it. */
-static bool lay_out(GiMemory *memory, GiDocument *document, const void *bytes, size_t size,
-    GiText *text) {
+static bool lay_out(
+    GiMemory *memory, GiDocument *document, const void *bytes, size_t size, GiText *text) {
     *document = (GiDocument){.memory = memory};
     const GiDocumentSource source = {.bytes = bytes, .size = size, .name = "fuzz.xml"};
     GlintStatus status = gi_document_load(document, &source, NULL);

@@ -8,7 +8,8 @@ set -u
 cd "${1:-$(dirname "$0")/..}" || exit 3
 
 # Room: the rooms that it may see besides itself, base, math and the public header.
-all='sample light texture mesh render reader format scene image accel kernel shape shade camera sched port'
+all='sample light texture mesh render reader format scene image accel kernel shape shade camera'
+all="$all sched port"
 plan="
 base:
 math:

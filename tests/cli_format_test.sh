@@ -46,6 +46,13 @@ silent() { check "$1: nothing on standard error" test ! -s "$dir/err"; }
 printed() {
     if [ "$(cat "$dir/out")" = "$1" ]; then pass; else fail "standard output is not: $1"; fi
 }
+# The output stands in the documentation, line by line.
+documented() {
+    while IFS= read -r line; do
+        check "docs/format-tools.md shows: $line" \
+            grep -qFx -e "$line" "$source/docs/format-tools.md"
+    done <"$1"
+}
 same() { check "$1 is $2" cmp -s "$1" "$2"; }
 
 ugly() {
@@ -138,8 +145,8 @@ run 0 fmt latin.xml
 check "UTF-8 comes out" grep -qF 'encoding="UTF-8"' latin.xml
 check "the letter too" grep -qF "$(printf '\303\251')" latin.xml
 # A mesh that is not there is no matter of layout.
-printf '<scene><camera/><image>4 2</image><surface type="Mesh"><data>no.obj</data></surface></scene>' \
-    >mesh.xml
+printf '<scene><camera/><image>4 2</image>%s</scene>' \
+    '<surface type="Mesh"><data>no.obj</data></surface>' >mesh.xml
 run 0 fmt mesh.xml
 
 # ---------------------------------------------------------------- upgrade
@@ -160,6 +167,7 @@ shows '<intensity>20 20 20</intensity><falloff>inverse-square</falloff></light>'
 shows '<!-- a matte ball -->'
 says 'old.xml:1:1: different: shadow rays began at a distance of 0.001'
 says 'from the rules of 2017; the picture may differ in 1 way (3 changes)'
+documented err
 cp out new.xml
 run 0 upgrade --to glint -o new2.xml old.xml
 printed ""
@@ -169,6 +177,7 @@ same out new.xml
 says 'the picture is the same to the last bit (0 changes)'
 run 1 upgrade --check --compare old.xml
 says 'drawn with 64 x 48 pixels, all are the same to the last bit'
+documented err
 run 0 upgrade --dialect 2012 -v old.xml
 says 'old.xml:1:1: same: the rules of 2012 become those of glint'
 says 'the picture is the same to the last bit (1 change)'
@@ -184,6 +193,8 @@ says "cannot write 'missing/new.xml'"
 
 # ---------------------------------------------------------------- docs
 
+run 0 docs exponent
+documented out
 run 0 docs Cone
 shows 'Cone: a surface type'
 shows 'years: 2011, 2012, glint'

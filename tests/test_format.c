@@ -109,7 +109,8 @@ static void texts(void) {
               "</scene>\n");
     LAYOUT(IN("<surface type='Mesh'><data> <![CDATA[ a b.obj ]]> </data></surface>"),
         BEGIN "  <surface type=\"Mesh\"><data><![CDATA[ a b.obj ]]></data></surface>\n</scene>\n");
-    LAYOUT(IN("&#32;<light name='\"'/>"), "<scene>\n  <camera/>\n  <image>4 2</image> &#32;\n  <light name='\"'/>\n</scene>\n");
+    LAYOUT(IN("&#32;<light name='\"'/>"),
+        "<scene>\n  <camera/>\n  <image>4 2</image> &#32;\n  <light name='\"'/>\n</scene>\n");
     LAYOUT("\xef\xbb\xbf<?xml version='1.0' encoding='utf-8'?>\r\n<scene><camera/>\r<image>4\r\n2"
            "</image></scene>\r\n",
         "<?xml version='1.0' encoding='utf-8'?>\n" BEGIN "</scene>\n");
@@ -149,8 +150,7 @@ static void refusals(void) {
     static const char wrong[] = "<scene>\n <camra/><image>4</image></scene>";
     CHECK_INT(format(wrong, sizeof wrong - 1, &out, &said), GLINT_ERROR_SCENE);
     CHECK_INT(said.count, 2);
-    CHECK_TEXT(said.first,
-        "2:2: unknown element `camra` in the scene: did you mean `camera`?");
+    CHECK_TEXT(said.first, "2:2: unknown element `camra` in the scene: did you mean `camera`?");
     CHECK(out.bytes == NULL);
     CHECK_INT(format("", 0, &out, &said), GLINT_ERROR_SCENE);
     CHECK_INT(format("<scene", 6, &out, &said), GLINT_ERROR_SCENE);
@@ -243,5 +243,70 @@ static void memory_fails(void) {
     CHECK(done);
 }
 
-const GiTest tests_format[] = {TEST(children), TEST(comments), TEST(texts), TEST(wide),
-    TEST(refusals), TEST(scenes_of_ours), TEST(scenes_of_the_course), TEST(memory_fails), TEST_END};
+/* ---------------------------------------------------------------- tables */
+
+static int find_type(const char *name) {
+    GlintElementType type;
+    for (int i = 0; glint_element_type_at(i, &type); i++) {
+        if (strcmp(type.name, name) == 0) return i;
+    }
+    test_fail(__FILE__, __LINE__, "there is no type %s", name);
+    return -1;
+}
+
+static void tables(void) {
+    GlintElement element;
+    GlintElementType type;
+    int elements = 0, types = 0;
+    CHECK(!glint_element_at(-1, &element) && !glint_element_type_at(-1, &type));
+    for (; glint_element_at(elements, &element); elements++) {
+        bool object = element.kind >= GLINT_ELEMENT_SCENE;
+        CHECK(element.help != NULL && glint_element_kind_text(element.kind) != NULL);
+        if (object != (element.example == NULL) && element.choices == NULL) {
+            test_fail(__FILE__, __LINE__, "the example of %s", element.name);
+        }
+        /* Whatever has a place is a type's, or the scene's. */
+        bool placed = glint_element_fits(elements, -1);
+        for (int i = 0; glint_element_type_at(i, &type); i++) {
+            placed |= glint_element_fits(elements, i);
+        }
+        CHECK(placed == (elements > 0));
+        if (element.default_type != NULL) find_type(element.default_type);
+    }
+    while (glint_element_type_at(types, &type)) types++;
+    CHECK(elements >= 60 && types >= 35);
+    CHECK(!glint_element_at(elements, &element) && !glint_element_at(elements + 1000, &element));
+    CHECK(!glint_element_fits(elements, -1) && !glint_element_fits(0, types));
+    CHECK(glint_element_at(0, &element) && strcmp(element.name, "scene") == 0);
+    for (int i = 0; glint_element_at(i, &element); i++) {
+        if (strcmp(element.name, "theta") != 0) continue;
+        CHECK(glint_element_fits(i, find_type("Cone")) && !glint_element_fits(i, -1));
+        CHECK(!glint_element_fits(i, find_type("Sphere")));
+        CHECK_TEXT(glint_element_range_text(element.range), "greater than 0, less than 180");
+        CHECK_TEXT(element.default_text, "60");
+        CHECK_TEXT(element.years, "2011");
+    }
+    CHECK(glint_element_range_text(GLINT_RANGE_ANY) == NULL);
+}
+
+/* ---------------------------------------------------------------- files */
+
+static void saving(void) {
+    char path[1100];
+    GlintError error;
+    snprintf(path, sizeof path, "%s/saved.xml", test_scratch_dir());
+    CHECK_INT(glint_file_save(path, "abc", 3, &error), GLINT_OK);
+    CHECK_INT(glint_file_save(path, "de", 2, &error), GLINT_OK);
+    FILE *file = fopen(path, "rb");
+    char text[8] = "";
+    CHECK(file != NULL && fread(text, 1, sizeof text - 1, file) == 2);
+    if (file != NULL) fclose(file);
+    CHECK_TEXT(text, "de");
+    snprintf(path, sizeof path, "%s/missing/saved.xml", test_scratch_dir());
+    CHECK_INT(glint_file_save(path, "abc", 3, &error), GLINT_ERROR_FILE);
+    CHECK_INT(glint_file_save(NULL, "abc", 3, &error), GLINT_ERROR_ARGUMENT);
+}
+
+const GiTest tests_format[] = {TEST(tables), TEST(saving), TEST(children), TEST(comments),
+    TEST(texts), TEST(wide), TEST(refusals), TEST(scenes_of_ours), TEST(scenes_of_the_course),
+    TEST(memory_fails), TEST_END};

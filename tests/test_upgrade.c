@@ -34,8 +34,8 @@ static GlintStatus upgrade(
 
 /* ---------------------------------------------------------------- texts */
 
-static void check_text(GlintDialect dialect, const char *text, const char *expected,
-    int same, int rounding, int different) {
+static void check_text(GlintDialect dialect, const char *text, const char *expected, int same,
+    int rounding, int different) {
     Text out;
     Told told;
     CHECK_INT(upgrade(text, strlen(text), dialect, &out, &told), GLINT_OK);
@@ -59,8 +59,9 @@ static void words(void) {
         "<diffuseColor>1 0 0</diffuseColor></shader ><light type='PointLight'>"
         "<intensity>1 1 1</intensity></light></scene>",
         6, 0, 1);
-    check_text(GLINT_DIALECT_2018B, OLD("<cubemap name='c'><filename>a.pfm</filename></cubemap>"
-                                        "<cubemap ref='c'/>"),
+    check_text(GLINT_DIALECT_2018B,
+        OLD("<cubemap name='c'><filename>a.pfm</filename></cubemap>"
+            "<cubemap ref='c'/>"),
         NEW("<environment type=\"Cubemap\" name='c'><filename>a.pfm</filename></environment>"
             "<environment ref='c'/>"),
         4, 0, 1);
@@ -89,8 +90,10 @@ static void lights(void) {
 static void shaders(void) {
     static const char lit[] = "<light><falloff>none</falloff></light>";
     char old[1000], new[1000];
-    snprintf(old, sizeof old, OLD("%s<surface type='Sphere'/><surface type='Sphere'>"
-                                  "<shader type='Lambertian'/></surface>"), lit);
+    snprintf(old, sizeof old,
+        OLD("%s<surface type='Sphere'/><surface type='Sphere'>"
+            "<shader type='Lambertian'/></surface>"),
+        lit);
     snprintf(new, sizeof new,
         NEW("%s<surface type='Sphere'><shader type=\"MicrofacetBeckmann\">"
             "<diffuseColor>0.2 0.2 0.2</diffuseColor><microfacetColor>0 0 0</microfacetColor>"

@@ -121,8 +121,7 @@ static size_t find_close(const GiDocument *document, size_t from) {
 
 static bool begins(const GiDocument *document, size_t at, const char *mark) {
     size_t size = strlen(mark);
-    return document->text.count - at >= size &&
-           memcmp(document->text.data + at, mark, size) == 0;
+    return document->text.count - at >= size && memcmp(document->text.data + at, mark, size) == 0;
 }
 
 /* The token that begins here, without its place in the tree. */

@@ -37,8 +37,7 @@ void gi_edit_replace(GiEdits *edits, size_t begin, size_t end, GiSpan text) {
     add(edits, text.data, text.size);
 }
 
-void gi_edit_element(
-    GiEdits *edits, size_t begin, size_t end, const char *name, GiSpan content) {
+void gi_edit_element(GiEdits *edits, size_t begin, size_t end, const char *name, GiSpan content) {
     begin_edit(edits, begin, end);
     add_text(edits, "<");
     add_text(edits, name);
@@ -117,8 +116,8 @@ static GiSpan line_before(const GiDocument *document, size_t token) {
     return none;
 }
 
-void gi_edit_append(GiEdits *edits, size_t start, const char *name, const char *const *children,
-    int count) {
+void gi_edit_append(
+    GiEdits *edits, size_t start, const char *name, const char *const *children, int count) {
     const GiDocument *document = edits->document;
     const GiToken *token = &document->tokens.data[start];
     if (token->kind == GI_TOKEN_EMPTY) {

@@ -24,8 +24,7 @@ void gi_edits_reset(GiEdits *edits);
 void gi_edit_replace(GiEdits *edits, size_t begin, size_t end, GiSpan text);
 
 /* The same with an element as the text: its tags and what stands between them. */
-void gi_edit_element(
-    GiEdits *edits, size_t begin, size_t end, const char *name, GiSpan content);
+void gi_edit_element(GiEdits *edits, size_t begin, size_t end, const char *name, GiSpan content);
 
 /* Changes the name of an element, in both tags. */
 void gi_edit_rename(GiEdits *edits, size_t start, const char *name);
@@ -35,8 +34,8 @@ void gi_edit_set_attribute(GiEdits *edits, size_t start, const char *name, const
 
 /* Adds text as the last children of an element whose tags are called `name`: on a line of its own
  * where the first child has one. At most once for each element; several children are lines. */
-void gi_edit_append(GiEdits *edits, size_t start, const char *name, const char *const *children,
-    int count);
+void gi_edit_append(
+    GiEdits *edits, size_t start, const char *name, const char *const *children, int count);
 
 /* Appends the changed text. False when memory is, or was, short. */
 bool gi_edits_apply(GiEdits *edits, GiText *text);

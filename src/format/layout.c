@@ -13,9 +13,9 @@ typedef struct Layout {
     const GiDocument *document;
     GiMemory *memory;
     GiText *text;
-    size_t depth;  /* elements that are open */
-    bool inside;   /* of an element that stays on one line: no new lines */
-    bool failed;   /* memory is short */
+    size_t depth; /* elements that are open */
+    bool inside;  /* of an element that stays on one line: no new lines */
+    bool failed;  /* memory is short */
 } Layout;
 
 /* ---------------------------------------------------------------- writing */
@@ -64,7 +64,8 @@ static size_t lines_before(const Layout *layout, size_t token) {
 /* Columns of white space, with tabs filled up. */
 static size_t column_of(const char *text, size_t size) {
     size_t column = 0;
-    for (size_t i = 0; i < size; i++) column = text[i] == '\t' ? column / TAB * TAB + TAB : column + 1;
+    for (size_t i = 0; i < size; i++)
+        column = text[i] == '\t' ? column / TAB * TAB + TAB : column + 1;
     return column;
 }
 
@@ -180,7 +181,8 @@ static void put_ignored(Layout *layout, size_t start) {
     const GiToken *token = &layout->document->tokens.data[start];
     const GiToken *tokens = layout->document->tokens.data;
     size_t begin = token->end, end = tokens[token->match].begin;
-    bool nothing = token->match == start + 1 || (token->match == start + 2 && tokens[start + 1].blank);
+    bool nothing =
+        token->match == start + 1 || (token->match == start + 2 && tokens[start + 1].blank);
     put_start(layout, start, nothing);
     if (nothing) return;
     put(layout, layout->document->text.data + begin, end - begin);

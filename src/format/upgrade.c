@@ -176,8 +176,8 @@ static void tell_lost_exits(GiUpgrade *upgrade, size_t root) {
     if (scene->boxes.count == 0 && scene->cones.count == 0) return;
     Inside inside = {scene, upgrade->from, 1000000};
     bool parallel = scene->camera.type == GLINT_CAMERA_PARALLEL;
-    if (!parallel && !is_inside(&inside, scene->roots.data, scene->roots.count,
-                         scene->camera.view_point, 0)) {
+    if (!parallel &&
+        !is_inside(&inside, scene->roots.data, scene->roots.count, scene->camera.view_point, 0)) {
         return;
     }
     gi_upgrade_note(upgrade, GLINT_CHANGE_DIFFERENT, root,
@@ -242,8 +242,8 @@ static void find_lights(GiUpgrade *upgrade) {
     size_t token;
     bool sampled = scene->integrator != GLINT_INTEGRATOR_POINT_LIGHT;
     bool environment = environment_of(upgrade->document, &token) != NULL;
-    upgrade->has_large =
-        sampled && environment && (upgrade->from->environment_lights || upgrade->to->environment_lights);
+    upgrade->has_large = sampled && environment &&
+                         (upgrade->from->environment_lights || upgrade->to->environment_lights);
     for (size_t i = 0; i < scene->lights.count; i++) {
         GlintLightType type = scene->lights.data[i].type;
         upgrade->has_points |= type == GLINT_LIGHT_POINT || type == GLINT_LIGHT_DIRECTIONAL;
@@ -279,8 +279,8 @@ static void walk(GiUpgrade *upgrade) {
     }
 }
 
-GlintStatus gi_upgrade_write(const GiDocument *document, GlintChangeFn change, void *user,
-    GiText *text, GlintError *error) {
+GlintStatus gi_upgrade_write(
+    const GiDocument *document, GlintChangeFn change, void *user, GiText *text, GlintError *error) {
     GiUpgrade upgrade = {.document = document,
         .memory = document->memory,
         .from = gi_dialect_rules(document->scene.dialect),

@@ -27,8 +27,8 @@ typedef struct GiUpgrade {
 } GiUpgrade;
 
 /* Upgrades a document and appends the new text; tells the changes. Errors: MEMORY. */
-GlintStatus gi_upgrade_write(const GiDocument *document, GlintChangeFn change, void *user,
-    GiText *text, GlintError *error);
+GlintStatus gi_upgrade_write(
+    const GiDocument *document, GlintChangeFn change, void *user, GiText *text, GlintError *error);
 
 /* ---- the parts of it */
 

@@ -10,8 +10,7 @@ static void upgrade_rectangle(GiUpgrade *upgrade, size_t token) {
     bool dimmer = !from->diffuse_over_pi && !from->radiance_over_pi && to->radiance_over_pi;
     if (dimmer) {
         static const double white[3] = {1, 1, 1}, pi = 3.1415926535897931;
-        bool scaled =
-            gi_upgrade_scale(upgrade, token, GI_SLOT_INTENSITY, "intensity", white, pi);
+        bool scaled = gi_upgrade_scale(upgrade, token, GI_SLOT_INTENSITY, "intensity", white, pi);
         gi_upgrade_note(upgrade, GLINT_CHANGE_DIFFERENT, token,
             scaled ? "the intensity of a rectangle of light times pi, since its diffuse term is "
                      "now kd / pi: highlights and facets get too much of it"
@@ -31,8 +30,8 @@ void gi_upgrade_light(GiUpgrade *upgrade, size_t token) {
         gi_upgrade_child(upgrade, token, GI_SLOT_FALLOFF) != GI_NO_TOKEN) {
         return;
     }
-    const char *const children[] = {upgrade->from->falloff ? "<falloff>inverse-square</falloff>"
-                                                           : "<falloff>none</falloff>"};
+    const char *const children[] = {
+        upgrade->from->falloff ? "<falloff>inverse-square</falloff>" : "<falloff>none</falloff>"};
     gi_edit_append(&upgrade->edits, token, gi_upgrade_name(upgrade, token), children, 1);
     gi_upgrade_note(upgrade, GLINT_CHANGE_SAME, token,
         "the light falls off with the square of the distance, which is now said");

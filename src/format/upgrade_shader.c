@@ -32,9 +32,10 @@ static void default_diffuse(const GiUpgrade *upgrade, char *text, size_t size) {
 /* ---------------------------------------------------------------- matte */
 
 static void tell_noise(GiUpgrade *upgrade, size_t token) {
-    if (!upgrade->has_large) return;
+    bool paths = upgrade->document->scene.integrator == GLINT_INTEGRATOR_PATH;
+    if (!upgrade->has_large && !paths) return;
     gi_upgrade_note(upgrade, GLINT_CHANGE_DIFFERENT, token,
-        "large lights are sampled in another way here: the noise is another, the mean the same");
+        "directions are drawn in another way here: the noise is another, the mean the same");
 }
 
 static void upgrade_lambertian(GiUpgrade *upgrade, size_t token) {
@@ -87,8 +88,7 @@ void gi_upgrade_surface(GiUpgrade *upgrade, size_t token) {
         facets ? "MicrofacetBeckmann" : "Lambertian", diffuse,
         facets ? "<microfacetColor>0 0 0</microfacetColor><alpha>1</alpha><nt>1.5</nt>" : "");
     const char *const children[] = {shader};
-    gi_edit_append(
-        &upgrade->edits, token, gi_upgrade_name(upgrade, token), children, 1);
+    gi_edit_append(&upgrade->edits, token, gi_upgrade_name(upgrade, token), children, 1);
     gi_upgrade_note(upgrade, GLINT_CHANGE_SAME, token, "the shader that it has is now said");
     if (facets) tell_noise(upgrade, token);
 }
@@ -179,7 +179,7 @@ void gi_upgrade_shader(GiUpgrade *upgrade, size_t token) {
         }
     }
     if (has(upgrade, token, GI_SLOT_MIRROR) && from->least_weight != to->least_weight) {
-        gi_upgrade_note(upgrade, GLINT_CHANGE_DIFFERENT, token,
-            "mirrored rays of little weight were left out");
+        gi_upgrade_note(
+            upgrade, GLINT_CHANGE_DIFFERENT, token, "mirrored rays of little weight were left out");
     }
 }

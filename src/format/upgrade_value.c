@@ -82,16 +82,16 @@ bool gi_upgrade_scale(GiUpgrade *upgrade, size_t token, GiSlot slot, const char 
     gi_upgrade_format(values, number);
     snprintf(text, sizeof text, "<%s>%s</%s>", child_name, number, child_name);
     const GiDocument *document = upgrade->document;
-    bool named = child != GI_NO_TOKEN &&
-                 gi_document_attribute_value(document, child, "name").data != NULL;
+    bool named =
+        child != GI_NO_TOKEN && gi_document_attribute_value(document, child, "name").data != NULL;
     if (child == GI_NO_TOKEN || named) {
         /* Others may mean the value by its name, which stays; the last of several counts. */
         const char *const children[] = {text};
         gi_edit_append(&upgrade->edits, token, gi_upgrade_name(upgrade, token), children, 1);
     } else {
         const GiToken *old = &document->tokens.data[child];
-        gi_edit_replace(&upgrade->edits, old->begin, document->tokens.data[old->match].end,
-            gi_span(text));
+        gi_edit_replace(
+            &upgrade->edits, old->begin, document->tokens.data[old->match].end, gi_span(text));
     }
     return true;
 }
