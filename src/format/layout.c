@@ -69,24 +69,19 @@ static size_t column_of(const char *text, size_t size) {
     return column;
 }
 
-static size_t source_column(const Layout *layout, size_t offset) {
-    const char *text = layout->document->text.data;
-    size_t begin = offset;
-    while (begin > 0 && text[begin - 1] != '\n') begin--;
-    return column_of(text + begin, offset - begin);
-}
-
-static size_t written_column(const Layout *layout) {
-    size_t begin = layout->text->count;
-    while (begin > 0 && layout->text->data[begin - 1] != '\n') begin--;
-    return layout->text->count - begin;
+/* The column at which a text of one or more lines ends; of a very long line, a large one. */
+static size_t end_column(const char *text, size_t size) {
+    size_t begin = size;
+    while (begin > 0 && text[begin - 1] != '\n' && size - begin <= COLUMN_LIMIT) begin--;
+    return column_of(text + begin, size - begin);
 }
 
 /* A comment's further lines keep their place relative to its beginning. */
 static void put_comment(Layout *layout, size_t token) {
     GiSpan span = gi_document_span(layout->document, token);
-    size_t from = source_column(layout, layout->document->tokens.data[token].begin);
-    size_t to = written_column(layout);
+    size_t from =
+        end_column(layout->document->text.data, layout->document->tokens.data[token].begin);
+    size_t to = end_column(layout->text->data, layout->text->count);
     if (to > COLUMN_LIMIT) from = to;
     for (size_t i = 0; i < span.size;) {
         const char *line = span.data + i;
@@ -227,7 +222,7 @@ static bool put_on_one_line(Layout *layout, size_t *token) {
     if (!stands_on_one_line(layout, *token)) return false;
     const GiToken *tokens = layout->document->tokens.data;
     size_t count = layout->text->count, depth = layout->depth, next = *token;
-    size_t column = written_column(layout), begin = count - column;
+    size_t begin = count - end_column(layout->text->data, count); /* of the line */
     layout->inside = true;
     for (size_t last = tokens[*token].match; next <= last;) {
         if (gi_token_opens(&tokens[next])) {
