@@ -10,8 +10,9 @@ static bool is_transform(const GiToken *token) {
            token->element->slot <= GI_SLOT_SCALE;
 }
 
-/* Whether the steps in the new order make the same matrix, bit by bit. */
-static bool same_matrix(GiUpgrade *upgrade, const GiGroup *group) {
+/* What the steps in the new order come to: bit by bit the same matrix, nearly the same, or none,
+ * since numbers may overflow in one order only. */
+static GlintChangeKind compare_matrices(GiUpgrade *upgrade, const GiGroup *group) {
     const GiScene *scene = &upgrade->document->scene;
     GiGroup turned = {.nests = false};
     for (size_t i = group->steps.count; i-- > 0;) {
@@ -20,11 +21,11 @@ static bool same_matrix(GiUpgrade *upgrade, const GiGroup *group) {
         }
     }
     GiAffine old, new;
-    bool same = !upgrade->failed && gi_scene_group_matrix(scene, group, upgrade->from, &old) &&
-                gi_scene_group_matrix(scene, &turned, upgrade->to, &new) &&
-                memcmp(&old, &new, sizeof old) == 0;
+    gi_scene_group_matrix(scene, group, upgrade->from, &old);
+    bool good = gi_scene_group_matrix(scene, &turned, upgrade->to, &new);
     gi_array_free(upgrade->memory, &turned.steps);
-    return same;
+    if (!good) return GLINT_CHANGE_DIFFERENT;
+    return memcmp(&old, &new, sizeof old) == 0 ? GLINT_CHANGE_SAME : GLINT_CHANGE_ROUNDING;
 }
 
 /* Puts the value of a transform into the place of another. It has no name there, since it may come
@@ -60,9 +61,11 @@ void gi_upgrade_group(GiUpgrade *upgrade, size_t token, uint32_t index) {
         move(upgrade, list.data[list.count - 1 - i], list.data[i]);
     }
     if (list.count > 1) {
-        bool same = same_matrix(upgrade, &document->scene.groups.data[index]);
-        gi_upgrade_note(upgrade, same ? GLINT_CHANGE_SAME : GLINT_CHANGE_ROUNDING, token,
-            "the first listed transform acted first: their order is turned round");
+        GlintChangeKind kind = compare_matrices(upgrade, &document->scene.groups.data[index]);
+        gi_upgrade_note(upgrade, kind, token,
+            kind == GLINT_CHANGE_DIFFERENT
+                ? "the first listed transform acted first: turned round, their numbers overflow"
+                : "the first listed transform acted first: their order is turned round");
     }
     gi_array_free(upgrade->memory, &list);
 }

@@ -4,6 +4,7 @@
 
 #include "reader/number.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -77,7 +78,10 @@ bool gi_upgrade_scale(GiUpgrade *upgrade, size_t token, GiSlot slot, const char 
     double values[3] = {fallback[0], fallback[1], fallback[2]};
     size_t child = gi_upgrade_child(upgrade, token, slot);
     if (child != GI_NO_TOKEN && !gi_upgrade_numbers(upgrade, child, 3, values)) return false;
-    for (int i = 0; i < 3; i++) values[i] *= factor;
+    for (int i = 0; i < 3; i++) {
+        values[i] *= factor;
+        if (!isfinite(values[i])) return false;
+    }
     char number[GI_UPGRADE_TEXT_SIZE], text[GI_UPGRADE_TEXT_SIZE + 80];
     gi_upgrade_format(values, number);
     snprintf(text, sizeof text, "<%s>%s</%s>", child_name, number, child_name);
