@@ -124,6 +124,11 @@ static void groups(void) {
             "<translate>.4 .5 .6</translate>\n</surface>"
             "<surface type='Group'><rotate>1 2 3</rotate></surface>"),
         1, 1, 0);
+    /* Names and types may be written by references. */
+    check_text(GLINT_DIALECT_2017B,
+        OLD("<surface type='Gr&#111;up'><rotate name='a&amp;&lt;'>1 2 3</rotate>"
+            "<scale ref='&#97;&#x26;&#x3C;'/></surface>"),
+        NEW("<surface type='Group'><scale>1 2 3</scale><rotate>1 2 3</rotate></surface>"), 3, 0, 0);
     /* Two have no order of multiplication. */
     check_text(GLINT_DIALECT_2018B,
         OLD("<surface type='Group'><rotate>1 2 3</rotate><scale>1 2 3</scale></surface>"),

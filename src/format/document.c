@@ -50,6 +50,47 @@ GiSpan gi_document_attribute_value(const GiDocument *document, size_t token, con
     return (GiSpan){NULL, 0};
 }
 
+/* The character that a reference stands for, between its & and ; */
+static uint32_t decode_reference(GiSpan name) {
+    static const struct {
+        const char *name;
+        uint32_t code;
+    } known[] = {{"lt", '<'}, {"gt", '>'}, {"amp", '&'}, {"quot", '"'}, {"apos", '\''}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (gi_span_is(name, known[i].name)) return known[i].code;
+    }
+    uint32_t code = 0;
+    bool hexadecimal = name.size > 1 && name.data[1] == 'x';
+    for (size_t i = hexadecimal ? 2 : 1; i < name.size && code <= 0x10ffff; i++) {
+        unsigned char c = (unsigned char)name.data[i];
+        uint32_t digit = c <= '9' ? c - (uint32_t)'0' : (c | 0x20u) - 'a' + 10u;
+        code = code * (hexadecimal ? 16 : 10) + digit;
+    }
+    return code;
+}
+
+bool gi_document_decode(const GiDocument *document, GiSpan *value, GiText *plain) {
+    bool itself = true;
+    for (size_t i = 0; i < value->size && itself; i++) {
+        itself = value->data[i] != '&' && value->data[i] != '\n' && value->data[i] != '\t';
+    }
+    if (itself) return true;
+    plain->count = 0;
+    for (size_t i = 0; i < value->size; i++) {
+        const char *end = memchr(value->data + i, ';', value->size - i);
+        char c = value->data[i];
+        if (c == '&' && end != NULL) {
+            GiSpan name = {value->data + i + 1, (size_t)(end - value->data) - i - 1};
+            if (!gi_encoding_put(document->memory, plain, decode_reference(name))) return false;
+            i += name.size + 1;
+        } else if (!gi_array_push(document->memory, plain, is_blank(c) ? ' ' : c)) {
+            return false;
+        }
+    }
+    *value = (GiSpan){plain->data, plain->count};
+    return true;
+}
+
 static size_t opening_from(const GiDocument *document, size_t i) {
     for (; i < document->tokens.count; i++) {
         if (gi_token_opens(&document->tokens.data[i])) return i;
@@ -155,23 +196,28 @@ static GiToken cut(const GiDocument *document, size_t at) {
     return token;
 }
 
-/* What the table has on an element, as tree.c finds it. */
-static void recognise(
-    const GiDocument *document, const GiElementIndex *index, size_t at, GiToken *token) {
+/* What the table has on an element, as tree.c finds it. False when memory is short. */
+static bool recognise(
+    GiDocument *document, const GiElementIndex *index, size_t at, GiToken *token) {
     const GiToken *parent =
         token->parent != GI_NO_TOKEN ? &document->tokens.data[token->parent] : NULL;
     token->ignored = parent != NULL && (parent->ignored || parent->refers);
-    if (token->ignored || !gi_token_opens(token)) return;
+    if (token->ignored || !gi_token_opens(token)) return true;
     if (parent == NULL) {
         token->element = &gi_elements[0];
-        return;
+        return true;
     }
     GiContexts contexts = parent->type != NULL ? parent->type->context : GI_IN_SCENE;
     token->element = gi_element_find(index, gi_document_name(document, at), contexts);
-    if (token->element == NULL) return;
+    if (token->element == NULL) {
+        token->ignored = true;
+        return true;
+    }
     token->refers = gi_document_attribute_value(document, at, "ref").data != NULL;
-    if (!gi_kind_is_object(token->element->kind)) return;
+    if (!gi_kind_is_object(token->element->kind)) return true;
     GiSpan type = gi_document_attribute_value(document, at, "type");
+    GiText plain = {0};
+    bool good = gi_document_decode(document, &type, &plain);
     if (type.data == NULL && token->element->type != NULL) type = gi_span(token->element->type);
     for (size_t i = type.size; i-- > 0;) {
         if (type.data[i] != '.') continue;
@@ -179,6 +225,8 @@ static void recognise(
         break;
     }
     token->type = gi_type_find(type, token->element->kind);
+    gi_array_free(document->memory, &plain);
+    return good;
 }
 
 static bool take_apart(GiDocument *document) {
@@ -199,7 +247,7 @@ static bool take_apart(GiDocument *document) {
         }
         if (!gi_array_push(document->memory, &document->tokens, token)) return false;
         GiToken *kept = &document->tokens.data[i];
-        if (kept->kind != GI_TOKEN_END) recognise(document, &index, i, kept);
+        if (kept->kind != GI_TOKEN_END && !recognise(document, &index, i, kept)) return false;
         if (kept->kind == GI_TOKEN_START) open = i;
         at = token.end;
     }

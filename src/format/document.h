@@ -25,7 +25,7 @@ typedef struct GiToken {
     size_t begin, end;        /* into the text */
     size_t match;             /* of a start the index of its end, and the reverse; else its own */
     size_t parent;            /* the start of the element it stands in; GI_NO_TOKEN: none */
-    const GiElement *element; /* of a start or empty token; null when ignored */
+    const GiElement *element; /* of a start or empty token; null when ignored or not known */
     const GiType *type;       /* likewise; null when it has none */
 } GiToken;
 
@@ -66,6 +66,10 @@ GiSpan gi_document_name(const GiDocument *document, size_t token);
  * written, without its quotes. */
 bool gi_document_attribute(
     const GiDocument *document, size_t token, size_t *at, GiAttribute *attribute);
+
+/* What a value means: references replaced, white space as blanks. Put into plain, unless the value
+ * means itself. False when memory is short. */
+bool gi_document_decode(const GiDocument *document, GiSpan *value, GiText *plain);
 
 /* The value of an attribute; data null: it is not given. */
 GiSpan gi_document_attribute_value(const GiDocument *document, size_t token, const char *name);

@@ -12,7 +12,7 @@ static bool put(GiMemory *memory, GiText *text, const char *bytes, size_t size) 
     return true;
 }
 
-static bool put_character(GiMemory *memory, GiText *text, uint32_t code) {
+bool gi_encoding_put(GiMemory *memory, GiText *text, uint32_t code) {
     char bytes[4];
     size_t size = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
     static const unsigned char lead[] = {0, 0, 0xc0, 0xe0, 0xf0};
@@ -62,7 +62,7 @@ static bool put_utf16(
             i += 2;
             code = 0x10000 + ((code - 0xd800) << 10) + (unit_at(bytes + i, big) & 0x3ff);
         }
-        if (!put_character(memory, text, code)) return false;
+        if (!gi_encoding_put(memory, text, code)) return false;
     }
     return true;
 }
@@ -101,7 +101,7 @@ bool gi_encoding_to_utf8(GiMemory *memory, const void *source, size_t size, GiTe
     if (wide) {
         good = put_utf16(memory, text, bytes, size, bytes[0] == 0 || bytes[0] == 0xfe);
     } else if (same_word(gi_encoding_declared(source, size), "iso-8859-1")) {
-        for (size_t i = 0; i < size && good; i++) good = put_character(memory, text, bytes[i]);
+        for (size_t i = 0; i < size && good; i++) good = gi_encoding_put(memory, text, bytes[i]);
     } else {
         size_t mark = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
         good = put(memory, text, (const char *)bytes + mark, size - mark);

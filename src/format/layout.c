@@ -171,16 +171,19 @@ static void put_value(Layout *layout, size_t start) {
     put_end(layout, start);
 }
 
-/* What nobody reads stays as it is; blanks alone are nothing. */
+/* Whether there are at most blanks between an element's tags. */
+static bool holds_nothing(const GiDocument *document, size_t start) {
+    size_t end = document->tokens.data[start].match;
+    return end <= start + 1 || (end == start + 2 && document->tokens.data[start + 1].blank);
+}
+
+/* What nobody reads stays as it is. */
 static void put_ignored(Layout *layout, size_t start) {
-    const GiToken *token = &layout->document->tokens.data[start];
-    const GiToken *tokens = layout->document->tokens.data;
-    size_t begin = token->end, end = tokens[token->match].begin;
-    bool nothing =
-        token->match == start + 1 || (token->match == start + 2 && tokens[start + 1].blank);
-    put_start(layout, start, nothing);
-    if (nothing) return;
-    put(layout, layout->document->text.data + begin, end - begin);
+    const GiDocument *document = layout->document;
+    const GiToken *token = &document->tokens.data[start];
+    size_t begin = token->end, end = document->tokens.data[token->match].begin;
+    put_start(layout, start, false);
+    put(layout, document->text.data + begin, end - begin);
     put_end(layout, start);
 }
 
@@ -253,20 +256,16 @@ static bool put_on_one_line(Layout *layout, size_t *token) {
  * becomes what is to be written next. */
 static void put_element(Layout *layout, size_t *token) {
     const GiToken *start = &layout->document->tokens.data[*token];
-    bool object = gi_kind_is_object(start->element->kind);
-    bool nothing = start->match == *token + 1 ||
-                   (start->match == *token + 2 && start[1].kind == GI_TOKEN_TEXT && start[1].blank);
-    if (start->kind == GI_TOKEN_EMPTY) {
+    bool ignored = start->refers || start->element == NULL;
+    bool object = !ignored && gi_kind_is_object(start->element->kind);
+    if (holds_nothing(layout->document, *token) && (object || ignored)) {
         put_start(layout, *token, true);
-        *token += 1;
-    } else if (start->refers) {
+        *token = start->match + 1;
+    } else if (ignored) {
         put_ignored(layout, *token);
         *token = start->match + 1;
     } else if (!object) {
         put_value(layout, *token);
-        *token = start->match + 1;
-    } else if (nothing) {
-        put_start(layout, *token, true);
         *token = start->match + 1;
     } else if (layout->inside || !put_on_one_line(layout, token)) {
         put_start(layout, *token, false);

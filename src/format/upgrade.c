@@ -60,29 +60,40 @@ static void tell_notes(GiUpgrade *upgrade, GlintChangeFn change, void *user) {
 
 /* ---------------------------------------------------------------- names */
 
+/* An attribute as the reader sees it; data null: it is not given. */
+static GiSpan plain_attribute(GiUpgrade *upgrade, size_t token, const char *name, GiText *plain) {
+    GiSpan value = gi_document_attribute_value(upgrade->document, token, name);
+    if (value.data != NULL && !gi_document_decode(upgrade->document, &value, plain)) {
+        upgrade->failed = true;
+    }
+    return value;
+}
+
 /* What each element stands for, as the reader takes it: a name means what had it last. */
 static void find_targets(GiUpgrade *upgrade) {
     const GiDocument *document = upgrade->document;
     GiNames names;
+    GiText plain = {0};
     gi_names_init(&names, upgrade->memory);
     for (size_t i = 0; i < document->tokens.count && !upgrade->failed; i++) {
         const GiToken *token = &document->tokens.data[i];
         size_t target = i;
         if (token->refers) {
-            GiSpan ref = gi_document_attribute_value(document, i, "ref");
+            GiSpan ref = plain_attribute(upgrade, i, "ref", &plain);
             const GiNamed *named = gi_names_get(&names, ref);
-            target = named != NULL ? upgrade->targets.data[named->index] : GI_NO_TOKEN;
+            if (named != NULL) target = upgrade->targets.data[named->index];
         }
         if (!gi_array_push(upgrade->memory, &upgrade->targets, target)) upgrade->failed = true;
         bool ends = token->kind == GI_TOKEN_END || token->kind == GI_TOKEN_EMPTY;
         size_t start = token->match < i ? token->match : i;
         if (!ends || upgrade->failed || token->ignored) continue;
-        GiSpan name = gi_document_attribute_value(document, start, "name");
-        if (name.data == NULL) continue;
+        GiSpan name = plain_attribute(upgrade, start, "name", &plain);
+        if (name.data == NULL || upgrade->failed) continue;
         if (!gi_names_set(&names, name, (GiNamed){.index = (uint32_t)start})) {
             upgrade->failed = true;
         }
     }
+    gi_array_free(upgrade->memory, &plain);
     gi_names_reset(&names);
 }
 
@@ -117,15 +128,14 @@ static void upgrade_words(GiUpgrade *upgrade, size_t token) {
 
 /* ---------------------------------------------------------------- the scene as a whole */
 
-static const GiElement *environment_of(const GiDocument *document, size_t *token) {
+static bool find_environment(const GiDocument *document, size_t *token) {
     for (size_t i = 0; i < document->tokens.count; i++) {
-        const GiToken *t = &document->tokens.data[i];
-        if (!gi_token_opens(t) || t->element == NULL) continue;
-        if (t->element->kind != GI_KIND_ENVIRONMENT) continue;
+        const GiElement *element = document->tokens.data[i].element;
+        if (element == NULL || element->kind != GI_KIND_ENVIRONMENT) continue;
         *token = i;
-        return t->element;
+        return true;
     }
-    return NULL;
+    return false;
 }
 
 /* Whether the eye is in a box or cylinder of a group or the scene; true as well when it would take
@@ -229,7 +239,7 @@ static void upgrade_scene(GiUpgrade *upgrade, size_t root) {
     size_t sky;
     if (upgrade->from->environment_lights != upgrade->to->environment_lights &&
         document->scene.integrator != GLINT_INTEGRATOR_POINT_LIGHT &&
-        environment_of(document, &sky) != NULL) {
+        find_environment(document, &sky)) {
         gi_upgrade_note(upgrade, GLINT_CHANGE_DIFFERENT, sky,
             "the environment was only seen and now lights the surfaces");
     }
@@ -241,7 +251,7 @@ static void find_lights(GiUpgrade *upgrade) {
     const GiScene *scene = &upgrade->document->scene;
     size_t token;
     bool sampled = scene->integrator != GLINT_INTEGRATOR_POINT_LIGHT;
-    bool environment = environment_of(upgrade->document, &token) != NULL;
+    bool environment = find_environment(upgrade->document, &token);
     upgrade->has_large = sampled && environment &&
                          (upgrade->from->environment_lights || upgrade->to->environment_lights);
     for (size_t i = 0; i < scene->lights.count; i++) {

@@ -40,8 +40,7 @@ void gi_upgrade_value(GiUpgrade *upgrade, size_t token) {
     const GiToken *tokens = upgrade->document->tokens.data, *start = &tokens[token];
     size_t target = upgrade->targets.data[token];
     bool turned = upgrade->from->first_listed_first != upgrade->to->first_listed_first;
-    if (!turned || !start->refers || target == GI_NO_TOKEN || !is_transform(&tokens[target]))
-        return;
+    if (!turned || !start->refers || !is_transform(&tokens[target])) return;
     /* A transform is written by its group, which may move it. */
     if (is_transform(start)) return;
     gi_edit_element(&upgrade->edits, start->begin, tokens[start->match].end, start->element->name,

@@ -24,7 +24,6 @@ static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n'; }
 bool gi_upgrade_numbers(const GiUpgrade *upgrade, size_t token, int count, double *values) {
     const GiDocument *document = upgrade->document;
     size_t target = upgrade->targets.data[token];
-    if (target == GI_NO_TOKEN) return false;
     const GiToken *start = &document->tokens.data[target];
     /* The usual case only: text without comments and references. */
     if (start->match != target + 2 || start[1].kind != GI_TOKEN_TEXT) return false;
