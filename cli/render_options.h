@@ -28,7 +28,8 @@ typedef struct CliRenderOptions {
     unsigned layers;                             /* a set of CliLayerKind */
     CliStatsFormat stats;
     bool quiet, list_isa;
+    bool embed; /* the scene and its files into the PNG */
 } CliRenderOptions;
 
-enum { CLI_RENDER_OPTION_COUNT = 11 };
+enum { CLI_RENDER_OPTION_COUNT = 12 };
 extern const CliOption cli_render_option_table[CLI_RENDER_OPTION_COUNT];

@@ -32,6 +32,8 @@ render: sample light texture shade camera kernel accel image sched scene shape p
 glint.c: $all glint_scene.h
 glint_build.c: $all glint_scene.h
 glint_format.c: $all
+glint_explain.c: $all glint_scene.h
+glint_recipe.c: $all glint_scene.h
 glint_scene.h: $all
 "
 
@@ -70,7 +72,8 @@ problems=$(printf '%s\n' "$report" | grep '^FAIL')
 failed=0
 
 # The program sees the public header, its own files, and the system.
-strangers=$(grep -nE '#[[:space:]]*include[[:space:]]*"' cli/*.[ch] | while IFS= read -r line; do
+strangers=$(grep -nE '#[[:space:]]*include[[:space:]]*"' cli/*.[ch] cli/*/*.[ch] |
+    while IFS= read -r line; do
     name=$(printf '%s\n' "$line" | sed 's/.*"\(.*\)".*/\1/')
     [ "$name" = glint/glint.h ] || [ -e "cli/$name" ] || echo "FAIL includes: $line"
 done)

@@ -24,6 +24,7 @@
     X(mesh) \
     X(ply) \
     X(reader) \
+    X(recipe) \
     X(malformed) \
     X(scan) \
     X(hit) \
@@ -46,7 +47,9 @@
     X(outputs) \
     X(save) \
     X(flight) \
+    X(camera) \
     X(golden) \
+    X(explain) \
     X(tiles) \
     X(api) \
     X(load) \
@@ -56,7 +59,10 @@
     X(files) \
     X(format) \
     X(triangle) \
-    X(upgrade)
+    X(upgrade) \
+    X(watch) \
+    X(watch_camera) \
+    X(watch_screen)
 /* clang-format on */
 
 #define DECLARE(room) extern const GiTest tests_##room[];
