@@ -25,7 +25,7 @@ typedef struct Lines {
     bool *changed; /* removed from the old, or added in the new */
 } Lines;
 
-static bool split(const CliBytes *bytes, Lines *lines) {
+static bool split(const CliContent *bytes, Lines *lines) {
     size_t count = 0;
     for (size_t i = 0; i < bytes->size; i++) count += bytes->data[i] == '\n';
     lines->items = malloc((count + 1) * sizeof *lines->items);
@@ -193,8 +193,9 @@ static void print(const char *name, const Lines *old, const Lines *new) {
     }
 }
 
-CliStatus cli_diff_print(const char *name, const CliBytes *old_bytes, const CliBytes *new_bytes) {
-    if (cli_bytes_equal(old_bytes, new_bytes)) return CLI_OK;
+CliStatus cli_diff_print(
+    const char *name, const CliContent *old_bytes, const CliContent *new_bytes) {
+    if (cli_content_equal(old_bytes, new_bytes)) return CLI_OK;
     Lines old = {0}, new = {0};
     CliStatus status = CLI_OK;
     if (!split(old_bytes, &old) || !split(new_bytes, &new) || !compare(&old, &new)) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * glint fmt: scenes in their canonical layout. A file is written only when it changes. */
-#include "bytes.h"
+#include "content.h"
 #include "diff.h"
 #include "interrupt.h"
 #include "message.h"
@@ -27,7 +27,7 @@ static CliStatus set_diff(void *values, const char *value) {
 
 /* ---------------------------------------------------------------- one scene */
 
-static CliStatus save(const CliJob *job, const CliBytes *text) {
+static CliStatus save(const CliJob *job, const CliContent *text) {
     if (cli_job_reads_standard_input(job)) {
         fwrite(text->data, 1, text->size, stdout);
         return CLI_OK;
@@ -43,8 +43,8 @@ static CliStatus save(const CliJob *job, const CliBytes *text) {
 
 /* What to do about a scene and its layout: show it, tell of it, or write it. */
 static CliStatus answer(
-    const Options *options, const CliJob *job, const CliBytes *old, const CliBytes *new) {
-    bool changes = !cli_bytes_equal(old, new);
+    const Options *options, const CliJob *job, const CliContent *old, const CliContent *new) {
+    bool changes = !cli_content_equal(old, new);
     CliStatus status = CLI_OK;
     if (options->diff) status = cli_diff_print(cli_job_name(job), old, new);
     if (options->check && changes) {
@@ -56,8 +56,8 @@ static CliStatus answer(
 }
 
 static CliStatus format(const Options *options, const CliJob *job) {
-    CliBytes old, new = {0};
-    CliStatus status = cli_bytes_load(&old, job);
+    CliContent old, new = {0};
+    CliStatus status = cli_content_load(&old, job);
     if (status == CLI_OK && !cli_interrupt_seen()) {
         CliFindings findings = {0};
         GlintFormatDesc desc = glint_format_desc_default();
@@ -65,12 +65,12 @@ static CliStatus format(const Options *options, const CliJob *job) {
         desc.diagnostic_user = &findings;
         GlintError error;
         GlintStatus result = glint_format(
-            old.data, old.size, cli_job_name(job), &desc, cli_bytes_append, &new, &error);
+            old.data, old.size, cli_job_name(job), &desc, cli_content_append, &new, &error);
         status = result == GLINT_OK ? answer(options, job, &old, &new)
                                     : cli_message_failure(cli_job_name(job), &findings, &error);
     }
-    cli_bytes_reset(&old);
-    cli_bytes_reset(&new);
+    cli_content_reset(&old);
+    cli_content_reset(&new);
     return status;
 }
 

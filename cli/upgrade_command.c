@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * glint upgrade: an old year's scene by the rules of today. */
-#include "bytes.h"
+#include "content.h"
 #include "interrupt.h"
 #include "message.h"
 #include "upgrade_compare.h"
@@ -87,7 +87,7 @@ static void sum_up(const Changes *changes, GlintDialect dialect) {
 
 /* ---------------------------------------------------------------- one scene */
 
-static CliStatus save(const Options *options, const CliBytes *text) {
+static CliStatus save(const Options *options, const CliContent *text) {
     if (options->output == NULL || strcmp(options->output, "-") == 0) {
         fwrite(text->data, 1, text->size, stdout);
         return cli_message_flush_output();
@@ -99,8 +99,8 @@ static CliStatus save(const Options *options, const CliBytes *text) {
 }
 
 static CliStatus upgrade(const Options *options, const CliJob *job) {
-    CliBytes old, new = {0};
-    CliStatus status = cli_bytes_load(&old, job);
+    CliContent old, new = {0};
+    CliStatus status = cli_content_load(&old, job);
     if (status == CLI_OK && !cli_interrupt_seen()) {
         Changes changes = {.name = cli_job_name(job), .verbose = options->verbose};
         CliFindings findings = {0};
@@ -112,8 +112,8 @@ static CliStatus upgrade(const Options *options, const CliJob *job) {
         desc.diagnostic_user = &findings;
         GlintError error;
         GlintDialect dialect = GLINT_DIALECT_AUTO;
-        GlintStatus result = glint_upgrade(
-            old.data, old.size, cli_job_name(job), &desc, cli_bytes_append, &new, &dialect, &error);
+        GlintStatus result = glint_upgrade(old.data, old.size, cli_job_name(job), &desc,
+            cli_content_append, &new, &dialect, &error);
         if (result == GLINT_OK) {
             sum_up(&changes, dialect);
             bool differs = changes.counts[GLINT_CHANGE_DIFFERENT] > 0;
@@ -125,8 +125,8 @@ static CliStatus upgrade(const Options *options, const CliJob *job) {
             status = cli_message_failure(cli_job_name(job), &findings, &error);
         }
     }
-    cli_bytes_reset(&old);
-    cli_bytes_reset(&new);
+    cli_content_reset(&old);
+    cli_content_reset(&new);
     return status;
 }
 

@@ -18,8 +18,8 @@ static bool on_cancelled(void *user) {
     return cli_interrupt_seen();
 }
 
-static GlintStatus draw(GlintScene *scene, const CliBytes *text, const char *name, Picture *picture,
-    GlintError *error) {
+static GlintStatus draw(GlintScene *scene, const CliContent *text, const char *name,
+    Picture *picture, GlintError *error) {
     const GlintMonitor monitor = {.cancelled = on_cancelled};
     GlintStatus status =
         glint_scene_load_memory(scene, text->data, text->size, name, &monitor, error);
@@ -47,7 +47,7 @@ static GlintStatus draw(GlintScene *scene, const CliBytes *text, const char *nam
 
 /* The scene's findings go to standard error, as when it is drawn. */
 static CliStatus load(
-    const CliJob *job, const CliBytes *text, GlintDialect dialect, Picture *picture) {
+    const CliJob *job, const CliContent *text, GlintDialect dialect, Picture *picture) {
     CliFindings findings = {0};
     GlintSceneDesc desc = glint_scene_desc_default();
     desc.dialect = dialect;
@@ -84,7 +84,7 @@ static void tell(const CliJob *job, const Picture *old, const Picture *new) {
 }
 
 CliStatus cli_compare_scenes(
-    const CliJob *job, const CliBytes *old, GlintDialect dialect, const CliBytes *new) {
+    const CliJob *job, const CliContent *old, GlintDialect dialect, const CliContent *new) {
     Picture before = {0}, after = {0};
     CliStatus status = load(job, old, dialect, &before);
     if (status == CLI_OK) status = load(job, new, GLINT_DIALECT_AUTO, &after);

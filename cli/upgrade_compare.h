@@ -2,7 +2,7 @@
  * How much two texts of a scene differ as pictures. */
 #pragma once
 
-#include "bytes.h"
+#include "content.h"
 
 #include "glint/glint.h"
 
@@ -11,4 +11,4 @@
  * dialect is the old one's. Says what goes wrong. */
 enum { CLI_COMPARE_SIDE = 256 };
 CliStatus cli_compare_scenes(
-    const CliJob *job, const CliBytes *old, GlintDialect dialect, const CliBytes *new);
+    const CliJob *job, const CliContent *old, GlintDialect dialect, const CliContent *new);

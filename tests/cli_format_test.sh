@@ -1,58 +1,23 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# glint fmt, upgrade, schema and docs as a stranger uses them, with the commands of
-# docs/format-tools.md.
+# glint fmt, upgrade, schema and docs as a stranger uses them.
 #   cli_format_test.sh PATH/TO/glint
 # Ends with "N passed, N failed[, N skipped]".
 set -u
-
-[ $# -eq 1 ] || { echo "usage: $0 PATH/TO/glint" >&2; exit 2; }
-glint=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
-source=$(cd "$(dirname "$0")/.." && pwd)
+. "$(dirname "$0")/cli.sh"
+source=$root
 shared=$source/../shared
-dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
-trap 'exit 130' INT TERM
-cd "$dir" || exit 3
 
-passed=0
-failed=0
-skipped=0
-pass() { passed=$((passed + 1)); }
-fail() {
-    failed=$((failed + 1))
-    echo "FAIL cli format: $*"
-    sed 's/^/  stdout: /' "$dir/out" | head -5
-    sed 's/^/  stderr: /' "$dir/err" | head -5
-}
-check() { # check WHAT COMMAND...: the command must succeed
-    what=$1
-    shift
-    if "$@"; then pass; else fail "$what"; fi
-}
-input=/dev/null
-run() { # run STATUS ARGUMENT...
-    expected=$1
-    shift
+# feed FILE STATUS ARGUMENT...: run, with a file as standard input.
+feed() {
+    input=$1
+    expected=$2
+    shift 2
     "$glint" "$@" >"$dir/out" 2>"$dir/err" <"$input"
     status=$?
-    if [ $status -eq "$expected" ]; then pass; else
-        fail "glint $*: status $status, not $expected"
-    fi
+    check "glint $*: status $status, not $expected" test $status -eq "$expected"
 }
-says() { check "standard error says: $1" grep -qF -e "$1" "$dir/err"; }
 shows() { check "standard output shows: $1" grep -qF -e "$1" "$dir/out"; }
-silent() { check "$1: nothing on standard error" test ! -s "$dir/err"; }
-printed() {
-    if [ "$(cat "$dir/out")" = "$1" ]; then pass; else fail "standard output is not: $1"; fi
-}
-# The output stands in the documentation, line by line.
-documented() {
-    while IFS= read -r line; do
-        check "docs/format-tools.md shows: $line" \
-            grep -qFx -e "$line" "$source/docs/format-tools.md"
-    done <"$1"
-}
 same() { check "$1 is $2" cmp -s "$1" "$2"; }
 
 ugly() {
@@ -106,12 +71,10 @@ run 0 fmt --diff a.xml
 printed ""
 
 ugly >in
-input=in
-run 0 fmt -
+feed in 0 fmt -
 same out tidy.xml
-run 1 fmt --check -
+feed in 1 fmt --check -
 printed stdin
-input=/dev/null
 
 # The folder, with one that is wrong: all others are laid out.
 mkdir scenes
@@ -167,7 +130,6 @@ shows '<intensity>20 20 20</intensity><falloff>inverse-square</falloff></light>'
 shows '<!-- a matte ball -->'
 says 'old.xml:1:1: different: shadow rays began at a distance of 0.001'
 says 'from the rules of 2017; the picture may differ in 1 way (3 changes)'
-documented err
 cp out new.xml
 run 0 upgrade --to glint -o new2.xml old.xml
 printed ""
@@ -177,7 +139,6 @@ same out new.xml
 says 'the picture is the same to the last bit (0 changes)'
 run 1 upgrade --check --compare old.xml
 says 'drawn with 64 x 48 pixels, all are the same to the last bit'
-documented err
 run 0 upgrade --dialect 2012 -v old.xml
 says 'old.xml:1:1: same: the rules of 2012 become those of glint'
 says 'the picture is the same to the last bit (1 change)'
@@ -193,8 +154,6 @@ says "cannot write 'missing/new.xml'"
 
 # ---------------------------------------------------------------- docs
 
-run 0 docs exponent
-documented out
 run 0 docs Cone
 shows 'Cone: a surface type'
 shows 'years: 2011, 2012, glint'
@@ -312,9 +271,4 @@ fi
 run 0 fmt --check "$source/scenes"
 printed ""
 
-if [ $skipped -gt 0 ]; then
-    echo "$passed passed, $failed failed, $skipped skipped"
-else
-    echo "$passed passed, $failed failed"
-fi
-[ $failed -eq 0 ]
+finish

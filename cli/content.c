@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
-#include "bytes.h"
+#include "content.h"
 
 #include "interrupt.h"
 #include "message.h"
@@ -13,7 +13,7 @@
 
 enum { CHUNK_SIZE = 1 << 16 };
 
-static bool reserve(CliBytes *bytes, size_t more) {
+static bool reserve(CliContent *bytes, size_t more) {
     if (more <= bytes->capacity - bytes->size) return true;
     size_t capacity = bytes->capacity > more ? 2 * bytes->capacity : bytes->capacity + more;
     char *data = realloc(bytes->data, capacity);
@@ -23,15 +23,15 @@ static bool reserve(CliBytes *bytes, size_t more) {
     return true;
 }
 
-bool cli_bytes_append(void *user, const void *more, size_t size) {
-    CliBytes *bytes = user;
+bool cli_content_append(void *user, const void *more, size_t size) {
+    CliContent *bytes = user;
     if (!reserve(bytes, size)) return false;
     if (size > 0) memcpy(bytes->data + bytes->size, more, size);
     bytes->size += size;
     return true;
 }
 
-static CliStatus read_all(CliBytes *bytes, int fd, const char *name) {
+static CliStatus read_all(CliContent *bytes, int fd, const char *name) {
     for (;;) {
         if (!reserve(bytes, CHUNK_SIZE)) {
             cli_message_error("%s", glint_status_text(GLINT_ERROR_MEMORY));
@@ -48,8 +48,8 @@ static CliStatus read_all(CliBytes *bytes, int fd, const char *name) {
     }
 }
 
-CliStatus cli_bytes_load(CliBytes *bytes, const CliJob *job) {
-    *bytes = (CliBytes){0};
+CliStatus cli_content_load(CliContent *bytes, const CliJob *job) {
+    *bytes = (CliContent){0};
     if (cli_job_reads_standard_input(job)) return read_all(bytes, STDIN_FILENO, "stdin");
     int fd = open(job->scene, O_RDONLY | O_CLOEXEC);
     if (fd < 0) {
@@ -61,11 +61,11 @@ CliStatus cli_bytes_load(CliBytes *bytes, const CliJob *job) {
     return status;
 }
 
-bool cli_bytes_equal(const CliBytes *a, const CliBytes *b) {
+bool cli_content_equal(const CliContent *a, const CliContent *b) {
     return a->size == b->size && (a->size == 0 || memcmp(a->data, b->data, a->size) == 0);
 }
 
-void cli_bytes_reset(CliBytes *bytes) {
+void cli_content_reset(CliContent *bytes) {
     free(bytes->data);
-    *bytes = (CliBytes){0};
+    *bytes = (CliContent){0};
 }
