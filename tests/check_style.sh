@@ -18,7 +18,9 @@ rule() { # rule NAME FINDINGS: holds when there are none
     fi
 }
 
-c_files=$(find include src modules cli tests fuzz bench samples -name '*.[ch]' 2>/dev/null | sort)
+rooms="include src modules cli tests fuzz bench samples docs"
+# shellcheck disable=SC2086 # a list
+c_files=$(find $rooms -name '*.[ch]' 2>/dev/null | sort)
 scripts="dev .ci/run $(find tests -name '*.sh' | sort)"
 python_files=$(find python tests -name '*.py' | sort)
 

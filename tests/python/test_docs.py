@@ -38,8 +38,10 @@ class Docs(TestCase):
     def test_python_page(self):
         self.run_page(SOURCE / "docs" / "python.md")
 
-    def test_readme(self):
+    def test_readmes(self):
         self.run_page(SOURCE / "python" / "README.md")
+        os.unlink(self.folder / "scenes")
+        self.run_page(SOURCE / "README.md")
 
     def test_everything_public_is_described(self):
         for name in glint.__all__:
