@@ -21,7 +21,7 @@ rule() { # rule NAME FINDINGS: holds when there are none
 rooms="include src modules cli tests fuzz bench samples docs"
 # shellcheck disable=SC2086 # a list
 c_files=$(find $rooms -name '*.[ch]' 2>/dev/null | sort)
-scripts="dev .ci/run $(find tests -name '*.sh' | sort)"
+scripts="dev .ci/run $(find tests packaging -name '*.sh' | sort)"
 python_files=$(find python tests -name '*.py' | sort)
 
 # No file of ours has a blank in its name.
