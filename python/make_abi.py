@@ -180,7 +180,13 @@ class Header:
     def parameters(self, text: str) -> list[str]:
         if text == "void":
             return []
-        return [self.kind(re.sub(r"\w+$", "", part.strip())) for part in text.split(",")]
+        result = []
+        for part in text.split(","):
+            match = re.fullmatch(r"(.*?)\w+(\[\d*\])?", part.strip())
+            if match is None:
+                raise stop(part)
+            result.append(self.kind(match[1] + ("*" if match[2] else "")))
+        return result
 
     def callback(self, returned: str, parameters: str) -> str:
         return f"CFUNCTYPE({', '.join([self.kind(returned), *self.parameters(parameters)])})"

@@ -22,7 +22,7 @@ rooms="include src modules cli tests fuzz bench samples docs"
 # shellcheck disable=SC2086 # a list
 c_files=$(find $rooms -name '*.[ch]' 2>/dev/null | sort)
 scripts="dev .ci/run $(find tests packaging -name '*.sh' | sort)"
-python_files=$(find python tests -name '*.py' | sort)
+python_files=$(find python tests/python -name '*.py' | sort)
 
 # No file of ours has a blank in its name.
 # shellcheck disable=SC2046,SC2086 # the lists are lists

@@ -25,8 +25,10 @@ from ._abi import VERSION as __version__
 from ._abi import (
     CameraType,
     Falloff,
+    FileKind,
     Integrator,
     LightType,
+    ObjectKind,
     Phase,
     Sampling,
     Severity,
@@ -37,15 +39,19 @@ from ._abi import (
 from ._handle import dialects
 from ._library import instruction_sets, library_path, use_library
 from .building import GroupId, MeshId, ShaderId, SurfaceId, TextureId, Vector
+from .camera import Camera
 from .errors import Diagnostic, GlintError
 from .image import Image, can_save
-from .scene import Scene, SceneInfo, Stats
+from .recipe import Recipe, RecipeFile, picture_digest
+from .scene import Scene, SceneFile, SceneInfo, Source, Stats
 from .tracing import Hit, Hits
 
 __all__ = [
+    "Camera",
     "CameraType",
     "Diagnostic",
     "Falloff",
+    "FileKind",
     "GlintError",
     "GroupId",
     "Hit",
@@ -54,13 +60,18 @@ __all__ = [
     "Integrator",
     "LightType",
     "MeshId",
+    "ObjectKind",
     "Phase",
+    "Recipe",
+    "RecipeFile",
     "Sampling",
     "Scene",
+    "SceneFile",
     "SceneInfo",
     "Severity",
     "ShaderId",
     "ShaderType",
+    "Source",
     "Stats",
     "Status",
     "SurfaceId",
@@ -72,5 +83,6 @@ __all__ = [
     "dialects",
     "instruction_sets",
     "library_path",
+    "picture_digest",
     "use_library",
 ]

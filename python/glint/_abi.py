@@ -12,11 +12,13 @@ from ctypes import (
     c_char,
     c_char_p,
     c_double,
+    c_float,
     c_int,
     c_int64,
     c_size_t,
     c_uint32,
     c_uint64,
+    c_uint8,
     c_void_p,
 )
 from enum import IntEnum
@@ -144,11 +146,50 @@ class GlintSceneDesc(Structure):
         ("allocator", POINTER(GlintAllocator)),
         ("diagnostic", GlintDiagnosticFn),
         ("diagnostic_user", c_void_p),
+        ("keep_sources", c_bool),
         ("cookie", c_int),
     ]
 
 
 GlintReadFn = CFUNCTYPE(c_int64, c_void_p, c_void_p, c_size_t)
+
+
+class ObjectKind(IntEnum):
+    """GlintObjectKind of glint.h."""
+
+    SURFACE = 0
+    LIGHT = 1
+    SHADER = 2
+    CAMERA = 3
+    KIND_COUNT = 4
+
+
+class GlintSource(Structure):
+    _fields_ = [
+        ("path", c_char_p),
+        ("name", c_char_p),
+        ("line", c_int64),
+        ("column", c_int64),
+    ]
+
+
+class FileKind(IntEnum):
+    """GlintFileKind of glint.h."""
+
+    SCENE = 0
+    MESH = 1
+    TEXTURE = 2
+    ENVIRONMENT = 3
+
+
+class GlintSceneFile(Structure):
+    _fields_ = [
+        ("kind", c_int),
+        ("name", c_char_p),
+        ("path", c_char_p),
+        ("size", c_uint64),
+        ("digest", c_uint64),
+    ]
 
 
 class Integrator(IntEnum):
@@ -351,6 +392,7 @@ class GlintRenderDesc(Structure):
         ("surface", c_void_p),
         ("sampling", c_int),
         ("monitor", POINTER(GlintMonitor)),
+        ("camera", POINTER(GlintCameraDesc)),
         ("cookie", c_int),
     ]
 
@@ -371,6 +413,193 @@ class GlintHit(Structure):
         ("normal", c_double * 3),
         ("surface", GlintSurfaceId),
         ("shader", GlintShaderId),
+    ]
+
+
+class RayKind(IntEnum):
+    """GlintRayKind of glint.h."""
+
+    CAMERA = 0
+    MIRRORED = 1
+    REFRACTED = 2
+    SCATTERED = 3
+    PROBE = 4
+
+
+class RayEnd(IntEnum):
+    """GlintRayEnd of glint.h."""
+
+    NOTHING = 0
+    SURFACE = 1
+    LIGHT = 2
+
+
+class GlintExplainRay(Structure):
+    _fields_ = [
+        ("kind", c_int),
+        ("end", c_int),
+        ("parent", c_uint32),
+        ("level", c_uint32),
+        ("origin", c_double * 3),
+        ("direction", c_double * 3),
+        ("t_min", c_double),
+        ("factor", c_double * 3),
+        ("weight", c_double),
+        ("density", c_double),
+        ("inside", c_bool),
+        ("t", c_double),
+        ("point", c_double * 3),
+        ("normal", c_double * 3),
+        ("geometric_normal", c_double * 3),
+        ("n_dot_v", c_double),
+        ("surface", GlintSurfaceId),
+        ("surface_type", c_int),
+        ("triangle", c_uint32),
+        ("light", c_uint32),
+        ("shader", GlintShaderId),
+        ("lit", c_bool),
+        ("local_shader", GlintShaderId),
+        ("local_factor", c_double * 3),
+        ("diffuse_color", c_double * 3),
+    ]
+
+
+class BranchFate(IntEnum):
+    """GlintBranchFate of glint.h."""
+
+    FOLLOWED = 0
+    NOTHING = 1
+    TOO_LIGHT = 2
+    TOO_DEEP = 3
+    NOT_CHOSEN = 4
+    ENDED = 5
+    NO_TREE = 6
+
+
+class GlintExplainBranch(Structure):
+    _fields_ = [
+        ("kind", c_int),
+        ("fate", c_int),
+        ("ray", c_uint32),
+        ("layer", c_uint32),
+        ("child", c_uint32),
+        ("factor", c_double * 3),
+        ("weight", c_double),
+        ("chance", c_double),
+        ("survival", c_double),
+    ]
+
+
+class GlintExplainLayer(Structure):
+    _fields_ = [
+        ("ray", c_uint32),
+        ("shader", GlintShaderId),
+        ("inside", c_bool),
+        ("behind", c_bool),
+        ("total", c_bool),
+        ("cosine", c_double),
+        ("cosine_behind", c_double),
+        ("ratio", c_double),
+        ("reflectance", c_double),
+    ]
+
+
+class LightFate(IntEnum):
+    """GlintLightFate of glint.h."""
+
+    ARRIVES = 0
+    BLOCKED = 1
+    EVERYWHERE = 2
+    BEHIND = 3
+    UNSEEN_SIDE = 4
+    OFF = 5
+    TURNED_AWAY = 6
+    ON_SURFACE = 7
+    ABSORBED = 8
+
+
+class GlintExplainLight(Structure):
+    _fields_ = [
+        ("fate", c_int),
+        ("ray", c_uint32),
+        ("light", c_uint32),
+        ("direction", c_double * 3),
+        ("distance", c_double),
+        ("n_dot_l", c_double),
+        ("n_dot_h", c_double),
+        ("falloff", c_double),
+        ("strength", c_double * 3),
+        ("diffuse", c_double * 3),
+        ("highlight", c_double * 3),
+        ("reflected", c_double * 3),
+        ("fresnel", c_double),
+        ("distribution", c_double),
+        ("masking", c_double),
+        ("density", c_double),
+        ("share", c_double),
+        ("term", c_double * 3),
+        ("shadow_begin", c_double),
+        ("shadow_end", c_double),
+        ("blocker", GlintSurfaceId),
+        ("blocker_type", c_int),
+        ("blocker_triangle", c_uint32),
+        ("blocker_light", c_uint32),
+        ("blocker_distance", c_double),
+        ("blocker_point", c_double * 3),
+        ("addition", c_uint32),
+    ]
+
+
+class GlintExplainAddition(Structure):
+    _fields_ = [
+        ("ray", c_uint32),
+        ("light", c_uint32),
+        ("amount", c_double * 3),
+        ("sum", c_double * 3),
+    ]
+
+
+class GlintExplainSample(Structure):
+    _fields_ = [
+        ("x", c_int),
+        ("y", c_int),
+        ("sample", c_int),
+        ("samples", c_int),
+        ("film_x", c_double),
+        ("film_y", c_double),
+        ("rays", POINTER(GlintExplainRay)),
+        ("layers", POINTER(GlintExplainLayer)),
+        ("branches", POINTER(GlintExplainBranch)),
+        ("lights", POINTER(GlintExplainLight)),
+        ("additions", POINTER(GlintExplainAddition)),
+        ("ray_count", c_size_t),
+        ("layer_count", c_size_t),
+        ("branch_count", c_size_t),
+        ("light_count", c_size_t),
+        ("addition_count", c_size_t),
+        ("color", c_double * 3),
+        ("sum", c_double * 3),
+    ]
+
+
+class GlintExplainPixel(Structure):
+    _fields_ = [
+        ("x", c_int),
+        ("y", c_int),
+        ("samples", c_int),
+        ("sum", c_double * 3),
+        ("exposure", c_double),
+        ("color", c_float * 3),
+        ("rgb", c_uint8 * 3),
+    ]
+
+
+class GlintExplainSink(Structure):
+    _fields_ = [
+        ("sample", CFUNCTYPE(None, c_void_p, POINTER(GlintExplainSample))),
+        ("pixel", CFUNCTYPE(None, c_void_p, POINTER(GlintExplainPixel))),
+        ("user", c_void_p),
+        ("only_sample", c_int),
     ]
 
 
@@ -410,6 +639,36 @@ class GlintLayer(Structure):
     ]
 
 
+class GlintRecipeFile(Structure):
+    _fields_ = [
+        ("kind", c_int),
+        ("name", c_char_p),
+        ("size", c_uint64),
+        ("digest", c_uint64),
+        ("bytes", c_void_p),
+    ]
+
+
+class GlintRecipe(Structure):
+    _fields_ = [
+        ("version", c_char * 32),
+        ("dialect", c_int),
+        ("width", c_int),
+        ("height", c_int),
+        ("crop_x", c_int),
+        ("crop_y", c_int),
+        ("crop_width", c_int),
+        ("crop_height", c_int),
+        ("samples", c_int),
+        ("light", c_int),
+        ("sampling", c_int),
+        ("has_pixels", c_bool),
+        ("pixels", c_uint64),
+        ("files", POINTER(GlintRecipeFile)),
+        ("file_count", c_int),
+    ]
+
+
 class GlintSaveDesc(Structure):
     _fields_ = [
         ("title", c_char_p),
@@ -417,6 +676,7 @@ class GlintSaveDesc(Structure):
         ("monitor", POINTER(GlintMonitor)),
         ("layers", POINTER(GlintLayer)),
         ("layer_count", c_int),
+        ("recipe", POINTER(GlintRecipe)),
         ("cookie", c_int),
     ]
 
@@ -442,6 +702,9 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
         POINTER(GlintMonitor), POINTER(GlintError)]),
     "glint_scene_load_stream": (c_int, [c_void_p, GlintReadFn, c_void_p, c_char_p,
         POINTER(GlintMonitor), POINTER(GlintError)]),
+    "glint_scene_source": (c_bool, [c_void_p, c_int, c_uint32, POINTER(GlintSource)]),
+    "glint_scene_file": (c_bool, [c_void_p, c_int, POINTER(GlintSceneFile)]),
+    "glint_scene_missing_file": (c_char_p, [c_void_p, c_size_t]),
     "glint_image_desc_default": (GlintImageDesc, []),
     "glint_camera_desc_default": (GlintCameraDesc, []),
     "glint_shader_desc_default": (GlintShaderDesc, []),
@@ -467,10 +730,18 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "glint_scene_load_environment": (c_int, [c_void_p, c_char_p, c_double, POINTER(GlintError)]),
     "glint_scene_commit": (c_int, [c_void_p, POINTER(GlintMonitor), POINTER(GlintError)]),
     "glint_scene_info": (None, [c_void_p, POINTER(GlintSceneInfo)]),
+    "glint_scene_camera": (c_bool, [c_void_p, POINTER(GlintCameraDesc)]),
     "glint_render_desc_default": (GlintRenderDesc, []),
     "glint_render": (c_int, [c_void_p, POINTER(GlintRenderDesc), c_void_p, POINTER(GlintError)]),
+    "glint_camera_ray": (c_int, [POINTER(GlintCameraDesc), c_double, c_double, POINTER(GlintRay),
+        POINTER(GlintError)]),
     "glint_trace": (c_bool, [c_void_p, POINTER(GlintRay), POINTER(GlintHit)]),
     "glint_occluded": (c_bool, [c_void_p, POINTER(GlintRay)]),
+    "glint_explain": (c_int, [c_void_p, POINTER(GlintRenderDesc), POINTER(GlintExplainSink),
+        POINTER(GlintError)]),
+    "glint_scene_shader": (c_bool, [c_void_p, GlintShaderId, POINTER(GlintShaderDesc)]),
+    "glint_scene_light": (c_bool, [c_void_p, c_uint32, POINTER(GlintLightDesc)]),
+    "glint_scene_background": (c_bool, [c_void_p, c_void_p]),
     "glint_scene_stats": (None, [c_void_p, POINTER(GlintStats)]),
     "glint_save_desc_default": (GlintSaveDesc, []),
     "glint_image_save": (c_int, [POINTER(GlintImage), c_char_p, POINTER(GlintSaveDesc),
@@ -480,5 +751,12 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "glint_image_check_path": (c_int, [c_char_p, POINTER(GlintError)]),
     "glint_image_encode_png": (c_int, [POINTER(GlintImage), POINTER(GlintSaveDesc), GlintSinkFn,
         c_void_p, POINTER(GlintError)]),
+    "glint_scene_recipe": (c_int, [c_void_p, POINTER(GlintRenderDesc), c_bool,
+        POINTER(POINTER(GlintRecipe)), POINTER(GlintError)]),
+    "glint_recipe_load": (c_int, [c_char_p, POINTER(POINTER(GlintRecipe)), POINTER(GlintError)]),
+    "glint_recipe_destroy": (None, [POINTER(GlintRecipe)]),
+    "glint_recipe_format": (c_size_t, [POINTER(GlintRecipe), c_char_p, c_size_t]),
+    "glint_image_digest": (c_int, [POINTER(GlintImage), c_void_p, POINTER(GlintError)]),
+    "glint_picture_digest": (c_int, [c_char_p, c_void_p, POINTER(GlintError)]),
     "glint_image_to_rgb8": (None, [POINTER(GlintImage), c_void_p]),
 }

@@ -64,6 +64,7 @@ class Handle:
         threads: int = 0,
         isa: str | None = None,
         memory_limit: int = 0,
+        keep_sources: bool = False,
     ) -> None:
         lib = library()
         self._library = lib
@@ -81,6 +82,7 @@ class Handle:
         settings.isa = None if isa is None else isa.encode()
         settings.memory_limit = max(integer("memory_limit", memory_limit, 64), 0)
         settings.diagnostic = self._callback
+        settings.keep_sources = keep_sources
         pointer, error = c_void_p(), _abi.GlintError()
         check(lib.glint_scene_create(byref(settings), byref(pointer), byref(error)), error)
         self._native: Native | None = Native(pointer)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from ctypes import POINTER, byref, cast, pointer, string_at
+from ctypes import POINTER, byref, c_uint64, cast, pointer, string_at
 from typing import TYPE_CHECKING, Any
 
 from . import _abi
@@ -15,6 +15,7 @@ from ._handle import path_bytes
 from ._library import library
 from ._monitor import Monitor, Progress
 from .errors import check
+from .recipe import Recipe
 
 if TYPE_CHECKING:
     from ._arrays import Bytes, Floats, Integers
@@ -53,9 +54,17 @@ class Image:
     """Is written into files."""
     layers: dict[str, Any]
     """By name what render() was asked for: see depth, normal, albedo and surface."""
+    recipe: Recipe | None
+    """What it takes to draw it once more; it goes into a PNG. None of pictures of one's own, and of
+    those drawn with another camera."""
 
     def __init__(
-        self, pixels: Any, *, title: str | None = None, layers: Mapping[str, Any] | None = None
+        self,
+        pixels: Any,
+        *,
+        title: str | None = None,
+        layers: Mapping[str, Any] | None = None,
+        recipe: Recipe | None = None,
     ) -> None:
         """A picture of these pixels: an array of height x width x 3, or rows of rows. An array in
         single precision is not copied."""
@@ -63,6 +72,7 @@ class Image:
         if self.pixels.nbytes == 0:
             raise ValueError("a picture has at least one pixel")
         self.title = title
+        self.recipe = recipe
         self.layers = {}
         for name, values in (layers or {}).items():
             found = take(name, values, layer_kind(name), self.width, *layer_columns(name))
@@ -122,6 +132,13 @@ class Image:
         library().glint_image_to_rgb8(byref(self._struct()), address(found))
         return found
 
+    def digest(self) -> int:
+        """CRC-64/XZ of the 8-bit values: that of the PNG, see picture_digest()."""
+        digest, error = c_uint64(), _abi.GlintError()
+        struct = self._struct()
+        check(library().glint_image_digest(byref(struct), byref(digest), byref(error)), error)
+        return digest.value
+
     def png(self) -> bytes:
         """The bytes of a PNG file of the picture."""
         parts: list[bytes] = []
@@ -178,6 +195,8 @@ class Image:
     def _save_desc(self) -> Any:
         settings = desc(library(), "save")
         settings.title = None if self.title is None else self.title.encode("utf-8", "replace")
+        if self.recipe is not None:
+            settings.recipe = self.recipe._pointer
         return settings
 
     def _put_layers(self, settings: Any) -> list[Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from ctypes import byref, pointer
+from ctypes import POINTER, byref, pointer
 from typing import Any
 
 from . import _abi
@@ -14,8 +14,10 @@ from ._arrays import address, make
 from ._descs import choose, desc
 from ._handle import Handle, path_bytes
 from ._monitor import Monitor, Progress
+from .camera import Camera
 from .errors import check
 from .image import Image, layer_columns, layer_kind
+from .recipe import Recipe
 
 
 class Rendering(Handle):
@@ -31,6 +33,8 @@ class Rendering(Handle):
         light: int = 0,
         layers: Sequence[str] = (),
         sampling: Sampling | str = Sampling.SOBOL,
+        camera: Camera | None = None,
+        embed: bool = False,
         progress: Progress | None = None,
     ) -> Image:
         """Draws the scene into memory.
@@ -43,12 +47,15 @@ class Rendering(Handle):
         layers: what to keep of what the camera rays meet: "depth", "normal", "albedo", "surface".
         sampling: where samples of large lights and paths fall: "sobol", or "random", which is
         noisier, to compare with.
+        camera: in the place of the scene's; nothing is built anew, see Scene.camera.
+        embed: put the scene and all its files into the recipe, and so into a PNG; the scene must
+        have been loaded with keep_sources.
         progress: is called with the Phase and the share done, from 0 to 1; to stop, it raises any
         exception, which then comes out of this call. Ctrl-C stops as well.
         """
         if isinstance(layers, str):
             layers = [layers]
-        settings = self._render_desc(width, height, samples, crop, light, sampling)
+        settings = self._render_desc(width, height, samples, crop, light, sampling, camera)
         across, down = self._size(settings)
         pixels = make("f", down, across, 3)
         found = {
@@ -57,10 +64,11 @@ class Rendering(Handle):
         for name, values in found.items():
             setattr(settings, name, address(values))
         self.commit(progress=progress)
+        recipe = self._recipe(settings, embed)
         # Where nothing can be drawn the library says why, unless the address is null.
         target = address(pixels) or address(make("f", 1))
         self._draw("glint_render", settings, target, progress=progress)
-        return Image(pixels, title=self._title(), layers=found)
+        return Image(pixels, title=self._title(), layers=found, recipe=recipe)
 
     def render_to(
         self,
@@ -73,6 +81,8 @@ class Rendering(Handle):
         light: int = 0,
         layers: Sequence[str] = (),
         sampling: Sampling | str = Sampling.SOBOL,
+        camera: Camera | None = None,
+        embed: bool = False,
         progress: Progress | None = None,
     ) -> None:
         """Draws the scene into a file: .png, .pfm or .exr; the same bytes as render() and save().
@@ -92,16 +102,21 @@ class Rendering(Handle):
                 light=light,
                 layers=layers,
                 sampling=sampling,
+                camera=camera,
+                embed=embed,
                 progress=progress,
             )
             image.save(path, progress=progress)
             return
-        settings = self._render_desc(width, height, samples, crop, light, sampling)
+        settings = self._render_desc(width, height, samples, crop, light, sampling, camera)
         title = self._title()
         save = desc(self._library, "save")
         save.title = None if title is None else title.encode("utf-8", "replace")
         encoded = path_bytes(path)
         self.commit(progress=progress)
+        recipe = self._recipe(settings, embed) if embed else None
+        if recipe is not None:
+            save.recipe = recipe._pointer
         self._draw("glint_render_save", settings, encoded, save, progress=progress)
 
     def _render_desc(
@@ -112,6 +127,7 @@ class Rendering(Handle):
         crop: Sequence[int] | None,
         light: int,
         sampling: Sampling | str,
+        camera: Camera | None,
     ) -> Any:
         values: dict[str, Any] = {}
         if crop is not None:
@@ -120,16 +136,19 @@ class Rendering(Handle):
                 raise ValueError("crop needs 4 numbers: x, y, width, height")
             values = dict(zip(names, crop))
         kind = choose(Sampling, "sampling", sampling)
-        return desc(
-            self._library,
-            "render",
-            width=width,
-            height=height,
-            samples=samples,
-            light=light,
-            sampling=kind,
-            **values,
-        )
+        values.update(width=width, height=height, samples=samples, light=light, sampling=kind)
+        settings = desc(self._library, "render", **values)
+        if camera is not None:
+            settings.camera = pointer(camera._struct())
+        return settings
+
+    def _recipe(self, settings: Any, embed: bool) -> Recipe | None:
+        """Of what would be drawn; there is none with another camera."""
+        if settings.camera and not embed:
+            return None
+        found = POINTER(_abi.GlintRecipe)()
+        self._call("glint_scene_recipe", byref(settings), embed, byref(found))
+        return Recipe(found)
 
     def _size(self, settings: Any) -> tuple[int, int]:
         """What the library will draw, or nothing where it will refuse."""

@@ -11,9 +11,12 @@ from dataclasses import dataclass
 from typing import Any, BinaryIO, TypeVar
 
 from . import _abi
+from ._abi import FileKind, ObjectKind
+from ._descs import choose, integer
 from ._handle import path_bytes
 from ._monitor import Progress
 from .building import Building
+from .camera import Camera
 from .errors import Diagnostic, text
 from .rendering import Rendering
 from .tracing import Tracing
@@ -62,6 +65,34 @@ class Stats:
     isa: str
 
 
+@dataclass(frozen=True)
+class SceneFile:
+    """A file that a scene is made of."""
+
+    kind: FileKind
+    name: str
+    """As the scene calls it; of the scene itself: as it was loaded."""
+    path: str
+    """As it was opened."""
+    size: int
+    """Bytes; 0 of what is no regular file."""
+    digest: int
+    """CRC-64/XZ of its content; 0 likewise."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """The place of an object in the scene file."""
+
+    path: str
+    name: str
+    """Its name attribute; empty for none."""
+    line: int
+    """Of its start tag, from 1."""
+    column: int
+    """From 1, in characters."""
+
+
 class Scene(Building, Rendering, Tracing):
     """A scene: first filled, from XML or by calls, then drawn and asked what rays meet.
 
@@ -72,6 +103,7 @@ class Scene(Building, Rendering, Tracing):
     threads: 0: one per core; 1: only the caller's.
     isa: one of instruction_sets(); None: the fastest. The picture is the same.
     memory_limit: bytes; 0: nine tenths of the machine's.
+    keep_sources: keep the scene file in memory, so that source() and embed know of it.
 
     A scene may be used from several threads: one call at a time runs, the others wait; only rays
     are traced at any time. close(), or the end of a `with`, frees it, as does the last reference.
@@ -86,10 +118,17 @@ class Scene(Building, Rendering, Tracing):
         threads: int = 0,
         isa: str | None = None,
         memory_limit: int = 0,
+        keep_sources: bool = False,
         progress: Progress | None = None,
     ) -> Self:
         """Reads an XML file. Raises a GlintError with all mistakes in it, see its diagnostics."""
-        scene = cls(dialect=dialect, threads=threads, isa=isa, memory_limit=memory_limit)
+        scene = cls(
+            dialect=dialect,
+            threads=threads,
+            isa=isa,
+            memory_limit=memory_limit,
+            keep_sources=keep_sources,
+        )
         scene._load("glint_scene_load_file", path, progress=progress)
         return scene
 
@@ -103,11 +142,18 @@ class Scene(Building, Rendering, Tracing):
         threads: int = 0,
         isa: str | None = None,
         memory_limit: int = 0,
+        keep_sources: bool = False,
         progress: Progress | None = None,
     ) -> Self:
         """The same from memory. name stands for the path in messages and may be one: files that
         the scene names are looked for from there."""
-        scene = cls(dialect=dialect, threads=threads, isa=isa, memory_limit=memory_limit)
+        scene = cls(
+            dialect=dialect,
+            threads=threads,
+            isa=isa,
+            memory_limit=memory_limit,
+            keep_sources=keep_sources,
+        )
         data = xml.encode() if isinstance(xml, str) else bytes(xml)
         scene._load("glint_scene_load_memory", name, data, len(data), progress=progress)
         return scene
@@ -122,10 +168,17 @@ class Scene(Building, Rendering, Tracing):
         threads: int = 0,
         isa: str | None = None,
         memory_limit: int = 0,
+        keep_sources: bool = False,
         progress: Progress | None = None,
     ) -> Self:
         """The same from an open binary file, in chunks as they are needed."""
-        scene = cls(dialect=dialect, threads=threads, isa=isa, memory_limit=memory_limit)
+        scene = cls(
+            dialect=dialect,
+            threads=threads,
+            isa=isa,
+            memory_limit=memory_limit,
+            keep_sources=keep_sources,
+        )
         reader = Reader(stream.read)
         try:
             scene._load("glint_scene_load_stream", name, reader.callback, None, progress=progress)
@@ -167,6 +220,41 @@ class Scene(Building, Rendering, Tracing):
         values = members(found)
         values["isa"] = text(found.isa)
         return Stats(**values)
+
+    @property
+    def camera(self) -> Camera:
+        """Its camera. One made of it by dataclasses.replace() can be given to render()."""
+        found = _abi.GlintCameraDesc()
+        if not self._library.glint_scene_camera(self._live(), byref(found)):
+            raise ValueError("the scene has no camera")
+        return Camera._of(found)
+
+    @property
+    def files(self) -> list[SceneFile]:
+        """The files it is made of: its own first, then meshes, textures and the environment."""
+        files: list[SceneFile] = []
+        found = _abi.GlintSceneFile()
+        while self._library.glint_scene_file(self._live(), len(files), byref(found)):
+            values = members(found)
+            values.update(kind=FileKind(found.kind), name=text(found.name), path=text(found.path))
+            files.append(SceneFile(**values))
+        return files
+
+    def source(self, kind: ObjectKind | str, number: int) -> Source | None:
+        """Where an object stands in the file, when it was loaded with keep_sources; None where that
+        is not known.
+
+        kind: "surface" (number: its SurfaceId, as of a Hit), "shader" (its ShaderId), "light" or
+        "camera" (the k-th, from 1).
+        """
+        found, what = _abi.GlintSource(), choose(ObjectKind, "kind", kind)
+        number = integer("number", number)
+        if number < 1:
+            return None
+        with self._alone() as native:
+            if not self._library.glint_scene_source(native, what, number, byref(found)):
+                return None
+            return Source(text(found.path), text(found.name), found.line, found.column)
 
     def __repr__(self) -> str:
         if self.closed:

@@ -13,6 +13,7 @@ from ._arrays import make, numpy_or_none, take
 from ._descs import numbers
 from ._handle import Handle
 from .building import ShaderId, SurfaceId, Vector
+from .camera import triple
 
 if TYPE_CHECKING:
     from ._arrays import Booleans, Doubles, Integers
@@ -108,11 +109,6 @@ class Tracing(Handle):
         for i, ray in enumerate(addresses(rays)):
             found[i] = occluded(native, ray)
         return found
-
-
-def triple(values: Any) -> tuple[float, float, float]:
-    x, y, z = values
-    return x, y, z
 
 
 # The library does not look at rays it is handed, so that is done here.

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Pictures in memory and in files."""
 
+import dataclasses
 import os
 import struct
 import subprocess
@@ -118,6 +119,67 @@ class Memory(TestCase):
                 glint.Image(wrong)
         with self.assertRaisesRegex(ValueError, "as many rows"):
             glint.Image([[[0, 0, 0]]], layers={"depth": [[1], [2]]})
+
+
+class Cameras(TestCase):
+    def test_the_scenes_own(self):
+        scene = ball()
+        self.assertEqual(scene.camera.view_point, (0, 0, 4))
+        self.assertEqual(scene.camera.view_width, 1.6)
+        own = scene.render(camera=scene.camera)
+        self.assertEqual(bytes(own.pixels), bytes(scene.render().pixels))
+        with self.assertRaisesRegex(ValueError, "no camera"):
+            glint.Scene().camera
+
+    def test_another(self):
+        scene = ball()
+        camera = dataclasses.replace(scene.camera, view_point=(4, 0, 0), view_direction=(-1, 0, 0))
+        other = glint.Scene()
+        other.set_image(16, 12)
+        other.set_camera(**dataclasses.asdict(camera))
+        other.add_light(position=(4, 5, 6))
+        other.add_light(position=(-4, 5, 6))
+        other.add_sphere()
+        image = scene.render(camera=camera)
+        self.assertEqual(bytes(image.pixels), bytes(other.render().pixels))
+        self.assertIsNone(image.recipe)
+        with self.assertRaises(glint.GlintError):
+            scene.render(camera=dataclasses.replace(camera, view_width=-1))
+
+    def test_rays(self):
+        scene = ball()
+        origin, direction = scene.camera.ray(0.5, 0.5)
+        self.assertEqual((origin, direction), ((0, 0, 4), (0, 0, -1)))
+        depth = scene.render(layers=["depth"]).depth
+        a, b = (9 + 0.5) / 16, 1 - (4 + 0.5) / 12
+        self.assertAlmostEqual(scene.trace(*scene.camera.ray(a, b)).t, depth[4, 9], 5)
+        self.assertEqual(glint.Camera().ray(0.5, 0.5)[1], (0, 0, -1))
+
+
+class Recipes(TestCase):
+    def test_of_an_image(self):
+        image = ball().render(width=8, samples=4, crop=(1, 2, 3, 4))
+        recipe = image.recipe
+        self.assertEqual((recipe.size, recipe.crop), ((8, 12), (1, 2, 3, 4)))
+        self.assertEqual((recipe.samples, recipe.light, recipe.dialect), (4, 0, "glint"))
+        self.assertEqual([file.name for file in recipe.files], ["ball.xml"])
+        self.assertIsNone(recipe.pixels_digest)
+        self.assertIn("samples 4\n", str(recipe))
+        self.assertIsNone(glint.Image([[[0, 0, 0]]]).recipe)
+
+    def test_in_a_file(self):
+        path = self.folder / "a.png"
+        image = ball(keep_sources=True).render(embed=True)
+        image.save(path)
+        recipe = glint.Recipe.load(path)
+        self.assertEqual(recipe.files[0].content, BALL.encode())
+        self.assertEqual(recipe.pixels_digest, image.digest())
+        self.assertEqual(glint.picture_digest(path), image.digest())
+        glint.Image(image.pixels).save(path)
+        with self.assertRaisesRegex(glint.GlintError, "no recipe"):
+            glint.Recipe.load(path)
+        with self.assertRaises(glint.GlintError):
+            ball().render(embed=True)
 
 
 class Files(TestCase):

@@ -119,6 +119,28 @@ class Mistakes(TestCase):
             scene.render()
 
 
+class Origins(TestCase):
+    def test_files(self):
+        files = glint.Scene.from_file(SCENES / "globe.xml").files
+        self.assertEqual(files[0].kind, glint.FileKind.SCENE)
+        self.assertEqual(files[0].path, str(SCENES / "globe.xml"))
+        picture = next(file for file in files if file.kind == glint.FileKind.TEXTURE)
+        self.assertEqual(picture.size, (SCENES / "data" / "globe.png").stat().st_size)
+        self.assertEqual(glint.Scene().files, [])
+
+    def test_sources(self):
+        scene = glint.Scene.from_string(BALL, name="ball.xml", keep_sources=True)
+        hit = scene.trace((0, 0, 5), (0, 0, -1))
+        source = scene.source("surface", hit.surface)
+        self.assertEqual((source.path, source.line, source.column), ("ball.xml", 7, 3))
+        self.assertEqual(scene.source("light", 2).line, 9)
+        self.assertIsNone(scene.source("light", 3))
+        self.assertIsNone(scene.source("light", 0))
+        self.assertIsNone(glint.Scene.from_string(BALL).source("light", 1))
+        with self.assertRaisesRegex(ValueError, "did you mean 'surface'"):
+            scene.source("surfce", 1)
+
+
 class Life(TestCase):
     def test_closed_scenes_refuse(self):
         scene = glint.Scene.from_string(BALL)
