@@ -66,7 +66,8 @@ class Rendering(Handle):
         self.commit(progress=progress)
         recipe = self._recipe(settings, embed)
         # Where nothing can be drawn the library says why, unless the address is null.
-        target = address(pixels) or address(make("f", 1))
+        anything = make("f", 1)
+        target = address(pixels) or address(anything)
         self._draw("glint_render", settings, target, progress=progress)
         return Image(pixels, title=self._title(), layers=found, recipe=recipe)
 
@@ -91,6 +92,8 @@ class Rendering(Handle):
         .exr. The other arguments are those of render().
         """
         if layers:
+            if not os.fspath(path).lower().endswith(".exr"):
+                raise ValueError("only .exr has room for layers")
             encoded = path_bytes(path)
             error = _abi.GlintError()
             check(self._library.glint_image_check_path(encoded, byref(error)), error)

@@ -190,7 +190,7 @@ class Scene(Building, Rendering, Tracing):
     def _load(
         self, function: str, path: str | os.PathLike[str], *before: Any, progress: Progress | None
     ) -> None:
-        self._name = os.fspath(path)
+        self._name = os.fsdecode(path)
         self._long_call(function, *before, path_bytes(path), progress=progress)
 
     @property

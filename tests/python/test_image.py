@@ -225,6 +225,8 @@ class Files(TestCase):
         for channel in (b"depth.Z", b"normal.X", b"albedo.R", b"surface.I"):
             self.assertIn(channel, data)
         scene.render(layers=layers).save(self.folder / "a.png")
+        with self.assertRaisesRegex(ValueError, "room for layers"):
+            scene.render_to(self.folder / "b.png", layers=layers)
 
     def test_names(self):
         glint.can_save("a.png")
