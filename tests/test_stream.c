@@ -52,8 +52,42 @@ typedef struct Solids {
     GiSphere spheres[SHAPES];
     GiBox boxes[SHAPES];
     GiCone cones[SHAPES];
+    GiMesh meshes[4];
+    float positions[3 * SHAPES + 1][3], normals[3 * SHAPES + 1][3]; /* one more than there are */
+    uint32_t corners[SHAPES][3], normal_corners[SHAPES][3];
     GiShapes shapes;
 } Solids;
+
+/* Triangles in meshes without normals, with a normal for each position, and with normals of their
+ * own, which some have not. Many normals are zero. */
+static void fill_meshes(Solids *solids, Random *random) {
+    enum { EACH = SHAPES / 4 };
+    for (int i = 0; i < 3 * SHAPES; i++) {
+        GiVec p = random_vec(random, -5, 5), n = random_vec(random, -1, 1);
+        double size = random_below(random, 2) == 0 ? 0 : 1;
+        for (int axis = 0; axis < 3; axis++) {
+            solids->positions[i][axis] = (float)(&p.x)[axis];
+            solids->normals[i][axis] = (float)((&n.x)[axis] * size);
+        }
+    }
+    for (uint32_t i = 0; i < SHAPES; i++) {
+        bool bare = random_below(random, 4) == 0;
+        for (uint32_t corner = 0; corner < 3; corner++) {
+            uint32_t any = (uint32_t)random_below(random, 3 * SHAPES);
+            solids->corners[i][corner] = 3 * i + corner;
+            solids->normal_corners[i][corner] = bare ? GI_SHAPE_NONE : any;
+        }
+    }
+    for (uint32_t i = 0; i < 4; i++) {
+        solids->meshes[i] = (GiMesh){.first_triangle = i * EACH,
+            .triangle_count = EACH,
+            .first_position = 3 * i * EACH,
+            .position_count = 3 * EACH,
+            .first_normal = 3 * (3 - i) * EACH,
+            .smooth = i > 0,
+            .normal_corners = i == 2 ? solids->normal_corners + i * EACH : NULL};
+    }
+}
 
 static void fill_solids(Solids *solids, Random *random) {
     for (int i = 0; i < SHAPES; i++) {
@@ -65,15 +99,24 @@ static void fill_solids(Solids *solids, Random *random) {
         double radius = random_below(random, 2) ? fabs(slope) * size.z : size.x;
         solids->cones[i] = (GiCone){c, radius, slope, size.z};
     }
-    solids->shapes =
-        (GiShapes){.spheres = solids->spheres, .boxes = solids->boxes, .cones = solids->cones};
+    fill_meshes(solids, random);
+    const GiTriangles triangles = {.positions = (const float(*)[3])solids->positions,
+        .normals = (const float(*)[3])solids->normals,
+        .corners = (const uint32_t(*)[3])solids->corners};
+    solids->shapes = (GiShapes){.spheres = solids->spheres,
+        .boxes = solids->boxes,
+        .cones = solids->cones,
+        .triangles = triangles,
+        .meshes = solids->meshes,
+        .mesh_count = 4};
 }
 
 /* A ray that meets the shape, in the bundle's place i. */
 static void put_ray(GiBundle *bundle, Random *random, const Solids *solids, GiShapeRef ref, int i) {
+    bool solid = gi_shape_kind(ref) != GI_SHAPE_TRIANGLE;
     for (;;) {
         GiVec o = random_vec(random, -9, 9), d = random_vec(random, -1, 1);
-        if (random_below(random, 4) == 0) {
+        if (solid && random_below(random, 4) == 0) {
             /* Along an axis, through the middle of the solid. */
             o = solids->cones[gi_shape_index(ref)].center;
             o.z -= 9;
@@ -188,12 +231,13 @@ static void kernels_agree(void) {
     CHECK(s != NULL);
     if (s == NULL) return;
     memset(s, 0, sizeof *s);
+    const GiShapeKind kinds[] = {GI_SHAPE_SPHERE, GI_SHAPE_BOX, GI_SHAPE_CONE, GI_SHAPE_TRIANGLE};
     const GiKernel *kernel;
     for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
         Random random = {31};
         for (int i = 0; i < 300; i++) {
             check_view(kernel, s, &random, i % 2 == 0);
-            check_points(kernel, s, &random, (GiShapeKind)(i % 3), i % 2 == 0);
+            check_points(kernel, s, &random, kinds[i % 4], i % 2 == 0);
             fill_lit(s, &random);
             check_shadows(kernel, s, &random);
             check_add(kernel, s);

@@ -73,9 +73,9 @@ typedef struct GiKernel {
     void (*bundle_any)(const GiTrace *trace, GiBundle *bundle);
     /* Origins and directions of the bundle's rays, through the window coordinates a and b. */
     void (*view)(const GiView *view, const double *a, const double *b, GiBundle *bundle);
-    /* Appends the points where rays of the bundle, named by their indices, met spheres, boxes or
-     * cones (all of one kind, not placed, not an instance's). `spared`: shadow rays do not meet the
-     * shape they start on. */
+    /* Appends the points where rays of the bundle, named by their indices, met spheres, boxes,
+     * cones or triangles (all of one kind, not placed, not an instance's). `spared`: shadow rays do
+     * not meet the shape they start on. */
     void (*points)(const GiShapes *shapes, const GiBundle *bundle, const uint32_t *rays, int count,
         bool spared, bool second_nappe_geometric, GiPoints *points);
     /* What the light adds to the points begin to end - 1, all of one shader, as shade/shade.h has

@@ -17,12 +17,14 @@ static inline Wide wide_along(Wide o, Wide d, R t) {
     return (Wide){o.x + d.x * t, o.y + d.y * t, o.z + d.z * t};
 }
 
+static inline R wide_largest(Wide a) { return R_MAX(R_ABS(a.x), R_MAX(R_ABS(a.y), R_ABS(a.z))); }
+
 /* As gi_normalize: what is too short or too long is scaled first. */
 static inline Wide wide_normalize(Wide a) {
     R square = wide_dot(a, a);
     M regular = R_LESS(R_OF(1e-280), square) & R_LESS(square, R_OF(1e280));
     if (m_bits(regular) != m_bits(M_OF(true))) {
-        R largest = R_MAX(R_ABS(a.x), R_MAX(R_ABS(a.y), R_ABS(a.z)));
+        R largest = wide_largest(a);
         M scaled = M_NOT(regular) & R_LESS(R_OF(0), largest);
         R divisor = R_SELECT(scaled, largest, R_OF(1));
         a = (Wide){a.x / divisor, a.y / divisor, a.z / divisor};

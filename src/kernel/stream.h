@@ -133,10 +133,63 @@ static inline void hits_cones(Hits *hits, const GiCone *first, bool second_nappe
 
 #undef STREAM_GATHER
 
+/* As triangle_point. */
+static inline void hits_triangles(Hits *hits, const GiShapes *shapes) {
+    const float *corners[3][GI_DOUBLES], *normals[3][GI_DOUBLES];
+    unsigned smooth = 0;
+    for (int k = 0; k < GI_DOUBLES; k++) {
+        uint32_t triangle = hits->shape[k], row[3];
+        const uint32_t *own = shapes->triangles.corners[triangle];
+        const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, triangle)];
+        bool has_normals = gi_triangle_normals(shapes, triangle, mesh, row);
+        smooth |= (unsigned)has_normals << k;
+        for (int i = 0; i < 3; i++) {
+            corners[i][k] = shapes->triangles.positions[own[i]];
+            normals[i][k] = has_normals ? shapes->triangles.normals[row[i]] : corners[i][k];
+        }
+    }
+    R zero = R_OF(0), corner[3][3], part[3];
+    for (int i = 0; i < 3; i++) r_rows(corners[i], corner[i]);
+    const gi_wide_Ray ray = {.ox = hits->o.x,
+        .oy = hits->o.y,
+        .oz = hits->o.z,
+        .dx = hits->d.x,
+        .dy = hits->d.y,
+        .dz = hits->d.z};
+    gi_wide_Weights weights = gi_wide_weights_at(corner, &ray);
+    R scale = R_OF(1) / (weights.u + weights.v + weights.w);
+    part[0] = weights.u * scale, part[1] = weights.v * scale, part[2] = weights.w * scale;
+    hits->p = (Wide){zero, zero, zero};
+    hits->size = zero;
+    for (int i = 0; i < 3; i++) {
+        Wide c = {corner[i][0], corner[i][1], corner[i][2]};
+        hits->p = wide_along(hits->p, c, part[i]);
+        hits->size = R_MAX(hits->size, wide_largest(c));
+    }
+    Wide a = {
+        corner[1][0] - corner[0][0], corner[1][1] - corner[0][1], corner[1][2] - corner[0][2]};
+    Wide b = {
+        corner[2][0] - corner[0][0], corner[2][1] - corner[0][1], corner[2][2] - corner[0][2]};
+    hits->n = (Wide){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    if (smooth != 0) {
+        Wide blend = {zero, zero, zero};
+        for (int i = 0; i < 3; i++) {
+            R normal[3];
+            r_rows(normals[i], normal);
+            blend = wide_along(blend, (Wide){normal[0], normal[1], normal[2]}, part[i]);
+        }
+        M flat = R_EQUAL(blend.x, zero) & R_EQUAL(blend.y, zero) & R_EQUAL(blend.z, zero);
+        M blended = m_from_bits(smooth) & M_NOT(flat);
+        hits->n = (Wide){R_SELECT(blended, blend.x, hits->n.x),
+            R_SELECT(blended, blend.y, hits->n.y), R_SELECT(blended, blend.z, hits->n.z)};
+    }
+    hits->n = wide_normalize(hits->n);
+}
+
 static inline void hits_store(const Hits *hits, GiPoints *to, int at) {
     Wide p = hits->p, n = hits->n, d = hits->d;
-    R largest = R_MAX(R_ABS(p.x), R_MAX(R_ABS(p.y), R_ABS(p.z))), zero = R_OF(0);
-    r_store(to->error + at, (hits->size + largest) * R_OF(GI_SURFACE_ERROR));
+    R zero = R_OF(0);
+    r_store(to->error + at, (hits->size + wide_largest(p)) * R_OF(GI_SURFACE_ERROR));
     r_store(to->px + at, p.x), r_store(to->py + at, p.y), r_store(to->pz + at, p.z);
     r_store(to->nx + at, n.x), r_store(to->ny + at, n.y), r_store(to->nz + at, n.z);
     r_store(to->vx + at, -d.x), r_store(to->vy + at, -d.y), r_store(to->vz + at, -d.z);
@@ -164,6 +217,7 @@ static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, co
         switch (kind) {
         case GI_SHAPE_SPHERE: hits_spheres(&hits, shapes->spheres); break;
         case GI_SHAPE_BOX: hits_boxes(&hits, shapes->boxes); break;
+        case GI_SHAPE_TRIANGLE: hits_triangles(&hits, shapes); break;
         default: hits_cones(&hits, shapes->cones, second_nappe_geometric); break;
         }
         int at = to->count + i;

@@ -532,6 +532,7 @@ enum { GI_DOUBLES = 8 };
 #define M_OF(x)            ((M)(-(int)(x)))
 #define M_NOT(m)           ((M)(~(m)))
 static inline unsigned m_bits(M m) { return m; }
+static inline M m_from_bits(unsigned bits) { return (M)bits; }
 static inline R r_load(const double *p) { return _mm512_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm512_storeu_pd(p, a); }
 static inline void r_store_floats(float *p, R a) { _mm256_storeu_ps(p, _mm512_cvtpd_ps(a)); }
@@ -585,6 +586,10 @@ enum { GI_DOUBLES = 4 };
 #define M_NOT(m)           (~(m))
 #define R_ABS(a)           _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
 static inline unsigned m_bits(M m) { return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(m)); }
+static inline M m_from_bits(unsigned bits) {
+    const __m256i each = _mm256_setr_epi64x(1, 2, 4, 8);
+    return _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(bits), each), each);
+}
 static inline M m_from_bytes(const uint8_t *p) {
     int all;
     memcpy(&all, p, sizeof all);
@@ -628,6 +633,9 @@ static inline R r_select(M m, R a, R b) {
         _mm_or_si128(_mm_and_si128(m, M_FROM(a)), _mm_andnot_si128(m, M_FROM(b))));
 }
 static inline unsigned m_bits(M m) { return (unsigned)_mm_movemask_pd(_mm_castsi128_pd(m)); }
+static inline M m_from_bits(unsigned bits) {
+    return _mm_set_epi64x(-(long long)(bits >> 1 & 1), -(long long)(bits & 1));
+}
 static inline M m_from_bytes(const uint8_t *p) {
     return _mm_set_epi64x(-(long long)p[1], -(long long)p[0]);
 }
@@ -655,6 +663,7 @@ enum { GI_DOUBLES = 1 };
 #define M_NOT(m)           (!(m))
 #define R_ABS(a)           fabs(a)
 static inline unsigned m_bits(M m) { return (unsigned)m; }
+static inline M m_from_bits(unsigned bits) { return (int)bits; }
 static inline M m_from_bytes(const uint8_t *p) { return p[0]; }
 static inline R r_load(const double *p) { return *p; }
 static inline void r_store(double *p, R a) { *p = a; }
@@ -692,6 +701,32 @@ static inline void u_widen(uint32_t *to, const uint16_t *from) {
     for (int i = 0; i < GI_DOUBLES; i++) to[i] = from[i];
 }
 #endif
+#endif
+
+/* Rows of three floats, column by column. A fourth number behind each row is read, not used. */
+#if defined(GI_IS_AVX512)
+static inline void r_rows(const float *const rows[GI_DOUBLES], R columns[3]) {
+    F floats[3];
+    eight_coordinates(rows, floats);
+    for (int i = 0; i < 3; i++) columns[i] = _mm512_cvtps_pd(floats[i]);
+}
+#elif defined(GI_IS_AVX2)
+static inline void r_rows(const float *const rows[GI_DOUBLES], R columns[3]) {
+    __m128 a = _mm_loadu_ps(rows[0]), b = _mm_loadu_ps(rows[1]), c = _mm_loadu_ps(rows[2]),
+           d = _mm_loadu_ps(rows[3]);
+    _MM_TRANSPOSE4_PS(a, b, c, d);
+    columns[0] = _mm256_cvtps_pd(a);
+    columns[1] = _mm256_cvtps_pd(b);
+    columns[2] = _mm256_cvtps_pd(c);
+}
+#elif defined(GI_IS_SSE2)
+static inline void r_rows(const float *const rows[GI_DOUBLES], R columns[3]) {
+    for (int i = 0; i < 3; i++) columns[i] = _mm_set_pd((double)rows[1][i], (double)rows[0][i]);
+}
+#else
+static inline void r_rows(const float *const rows[GI_DOUBLES], R columns[3]) {
+    for (int i = 0; i < 3; i++) columns[i] = (double)rows[0][i];
+}
 #endif
 
 /* As R_SELECT, of what comparisons give. */

@@ -371,10 +371,15 @@ static void meet_dark(
     }
 }
 
+/* Whether the kernels make points of what is met on shapes of this kind. */
+static inline bool is_streamed(GiShapeKind kind) {
+    return kind <= GI_SHAPE_CONE || kind == GI_SHAPE_TRIANGLE;
+}
+
 /* The rays that met surfaces of one shader: a list that begins with `first`. */
 static void meet_shader(
     const GiStage *stage, uint32_t shader_index, uint32_t first, const uint32_t *next) {
-    enum { KINDS = GI_SHAPE_CONE + 1 }; /* that the kernels know: spheres, boxes, cones */
+    enum { KINDS = GI_SHAPE_TRIANGLE + 1 };
     const GiTileScratch *scratch = stage->scratch;
     const GiBundle *bundle = &scratch->bundle;
     const GiShader *shader = &stage->world->scene->shaders.data[shader_index];
@@ -383,8 +388,8 @@ static void meet_shader(
     uint32_t rays[KINDS][GI_BUNDLE_SIZE];
     int count[KINDS] = {0};
     for (uint32_t i = first; i != GI_NONE; i = next[i]) {
-        int kind = (int)gi_shape_kind((GiShapeRef){bundle->shape[i]});
-        if (dark && kind < KINDS && bundle->instance[i] == GI_SHAPE_NONE) {
+        GiShapeKind kind = gi_shape_kind((GiShapeRef){bundle->shape[i]});
+        if (dark && is_streamed(kind) && bundle->instance[i] == GI_SHAPE_NONE) {
             rays[kind][count[kind]++] = i;
         } else if (plain) {
             meet_plain(stage, i, shader_index);
