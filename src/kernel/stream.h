@@ -5,20 +5,18 @@
 #pragma once
 
 /* The numbers from i on; the first of them in the place of those after the end. */
-static inline void stream_load(uint32_t *to, const uint32_t *from, int i, int end) {
-    if (i + GI_DOUBLES <= end) {
-        u_copy(to, from + i);
-        return;
-    }
-    for (int k = 0; k < GI_DOUBLES; k++) to[k] = from[i + k < end ? i + k : i];
+static inline U stream_load(const uint32_t *from, int i, int end) {
+    if (i + GI_DOUBLES <= end) return u_load(from + i);
+    uint32_t last[GI_DOUBLES];
+    for (int k = 0; k < GI_DOUBLES; k++) last[k] = from[i + k < end ? i + k : i];
+    return u_load(last);
 }
 
-static inline void stream_load_short(uint32_t *to, const uint16_t *from, int i, int end) {
-    if (i + GI_DOUBLES <= end) {
-        u_widen(to, from + i);
-        return;
-    }
-    for (int k = 0; k < GI_DOUBLES; k++) to[k] = from[i + k < end ? i + k : i];
+static inline U stream_load_short(const uint16_t *from, int i, int end) {
+    if (i + GI_DOUBLES <= end) return u_widen(from + i);
+    uint32_t last[GI_DOUBLES];
+    for (int k = 0; k < GI_DOUBLES; k++) last[k] = from[i + k < end ? i + k : i];
+    return u_load(last);
 }
 
 /* ---------------------------------------------------------------- rays */
@@ -47,7 +45,7 @@ static void GI_KERNEL(view)(const GiView *view, const double *a, const double *b
 typedef struct Hits {
     Wide o, d, p, n;
     R t, size; /* size: of the numbers beside the point's own */
-    uint32_t shape[GI_DOUBLES];
+    U shape;
 } Hits;
 
 #define STREAM_GATHER(member) r_gather(&(member), hits->shape, stride)
@@ -136,9 +134,11 @@ static inline void hits_cones(Hits *hits, const GiCone *first, bool second_nappe
 /* As triangle_point. */
 static inline void hits_triangles(Hits *hits, const GiShapes *shapes) {
     const float *corners[3][GI_DOUBLES], *normals[3][GI_DOUBLES];
+    uint32_t triangles[GI_DOUBLES];
     unsigned smooth = 0;
+    u_store(triangles, hits->shape);
     for (int k = 0; k < GI_DOUBLES; k++) {
-        uint32_t triangle = hits->shape[k], row[3];
+        uint32_t triangle = triangles[k], row[3];
         const uint32_t *own = shapes->triangles.corners[triangle];
         const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, triangle)];
         bool has_normals = gi_triangle_normals(shapes, triangle, mesh, row);
@@ -199,21 +199,17 @@ static inline void hits_store(const Hits *hits, GiPoints *to, int at) {
 static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, const uint32_t *rays,
     int count, bool spared, bool second_nappe_geometric, GiPoints *to) {
     GiShapeKind kind = gi_shape_kind((GiShapeRef){bundle->shape[rays[0]]});
+    const U index_bits = u_of(GI_SHAPE_INDEX_LIMIT - 1), none = u_of(GI_SHAPE_NONE);
     for (int i = 0; i < count; i += GI_DOUBLES) {
-        uint32_t ray[GI_DOUBLES], shape[GI_DOUBLES], pixel[GI_DOUBLES];
-        stream_load(ray, rays, i, count);
-        u_gather(shape, bundle->shape, ray);
-        u_gather(pixel, bundle->pixel, ray);
+        U ray = stream_load(rays, i, count), shape = u_gather(bundle->shape, ray);
         Hits hits; /* no initializer, which would clear the rest of it each time */
+        hits.shape = shape & index_bits;
         hits.o = (Wide){r_gather(bundle->ox, ray, 1), r_gather(bundle->oy, ray, 1),
             r_gather(bundle->oz, ray, 1)};
         hits.d = (Wide){r_gather(bundle->dx, ray, 1), r_gather(bundle->dy, ray, 1),
             r_gather(bundle->dz, ray, 1)};
         hits.t = r_gather(bundle->t, ray, 1);
         hits.p = wide_along(hits.o, hits.d, hits.t);
-        for (int k = 0; k < GI_DOUBLES; k++) {
-            hits.shape[k] = gi_shape_index((GiShapeRef){shape[k]});
-        }
         switch (kind) {
         case GI_SHAPE_SPHERE: hits_spheres(&hits, shapes->spheres); break;
         case GI_SHAPE_BOX: hits_boxes(&hits, shapes->boxes); break;
@@ -222,13 +218,9 @@ static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, co
         }
         int at = to->count + i;
         hits_store(&hits, to, at);
-        u_copy(to->pixel + at, pixel);
-        u_fill(to->skip_instance + at, GI_SHAPE_NONE);
-        if (spared) {
-            u_copy(to->skip + at, shape);
-        } else {
-            u_fill(to->skip + at, GI_SHAPE_NONE);
-        }
+        u_store(to->pixel + at, u_gather(bundle->pixel, ray));
+        u_store(to->skip + at, spared ? shape : none);
+        u_store(to->skip_instance + at, none);
     }
     to->count += count;
 }
@@ -238,12 +230,10 @@ static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, co
 static void GI_KERNEL(shadows)(
     const GiPoints *points, const GiLit *lit, const uint16_t *order, GiBundle *to) {
     for (int i = 0; i < to->count; i += GI_DOUBLES) {
-        uint32_t index[GI_DOUBLES], point[GI_DOUBLES];
-        stream_load_short(index, order, i, to->count);
-        u_gather(point, lit->point, index);
-        u_copy(to->pixel + i, point);
-        u_gather(to->skip + i, points->skip, point);
-        u_gather(to->skip_instance + i, points->skip_instance, point);
+        U point = u_gather(lit->point, stream_load_short(order, i, to->count));
+        u_store(to->pixel + i, point);
+        u_store(to->skip + i, u_gather(points->skip, point));
+        u_store(to->skip_instance + i, u_gather(points->skip_instance, point));
         Wide p = {r_gather(points->px, point, 1), r_gather(points->py, point, 1),
             r_gather(points->pz, point, 1)};
         r_store(to->ox + i, p.x), r_store(to->oy + i, p.y), r_store(to->oz + i, p.z);
