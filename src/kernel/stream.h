@@ -39,6 +39,36 @@ static void GI_KERNEL(view)(const GiView *view, const double *a, const double *b
     }
 }
 
+/* ---------------------------------------------------------------- groups */
+
+/* A key is looked for up to where it comes last: as far as that is known, from a table in which
+ * other keys may have written too, but only later places. */
+static int GI_KERNEL(group)(const uint32_t *keys, int count, uint32_t *places, int *ends) {
+    enum { SLOTS = 1024 };
+    uint16_t last[SLOTS];
+    uint16_t open[GI_PACKET_COUNT]; /* bits of the places that are in no group yet */
+    int packets = (count + 15) / 16, found = 0, groups = 0;
+    for (int i = 0; i < count; i++) last[keys[i] % SLOTS] = (uint16_t)i;
+    for (int i = 0; i < packets; i++) {
+        int left = count - 16 * i;
+        unsigned here = left < 16 ? (1u << left) - 1 : 0xffff;
+        open[i] = (uint16_t)(here & ~sixteen_equal(GI_NO_KEY, keys + 16 * i));
+    }
+    for (int first = 0; first < packets; first++) {
+        while (open[first] != 0) {
+            uint32_t key = keys[16 * first + lowest_bit(open[first])];
+            int end = last[key % SLOTS] / 16;
+            for (int i = first; i <= end; i++) {
+                unsigned bits = open[i] & sixteen_equal(key, keys + 16 * i);
+                open[i] = (uint16_t)(open[i] ^ bits);
+                found += sixteen_append(places + found, bits, (uint32_t)(16 * i));
+            }
+            ends[groups++] = found;
+        }
+    }
+    return groups;
+}
+
 /* ---------------------------------------------------------------- points */
 
 /* Rays with the shapes they met, by index, and where: in the end moved onto the surface. */

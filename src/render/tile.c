@@ -13,23 +13,19 @@ enum {
 
 GiTileScratch *gi_tile_scratch_create(const GiWorld *world, const GiRenderTarget *target) {
     GiMemory *memory = world->scene->memory;
-    size_t shader_count = world->scene->shaders.count;
     GiTileScratch *scratch = gi_memory_allocate_lines(memory, 1, sizeof *scratch);
     if (scratch == NULL) return NULL;
     bool sees = target->depth != NULL || target->normal != NULL || target->albedo != NULL ||
                 target->surface != NULL;
     memset(&scratch->flights, 0, sizeof scratch->flights);
     memset(&scratch->ranges, 0, sizeof scratch->ranges);
-    scratch->shader_count = shader_count;
     scratch->points.count = scratch->segment_count = 0;
     scratch->weighted = scratch->out_of_memory = false;
-    scratch->head = gi_memory_allocate(memory, shader_count * sizeof *scratch->head);
     scratch->seen = sees ? gi_memory_allocate(memory, SEEN_SIZE) : NULL;
-    if (scratch->head == NULL || (sees && scratch->seen == NULL)) {
+    if (sees && scratch->seen == NULL) {
         gi_tile_scratch_destroy(memory, scratch);
         return NULL;
     }
-    for (size_t i = 0; i < shader_count; i++) scratch->head[i] = GI_NONE;
     return scratch;
 }
 
@@ -37,7 +33,6 @@ void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch) {
     if (scratch == NULL) return;
     gi_array_free(memory, &scratch->flights);
     gi_array_free(memory, &scratch->ranges);
-    gi_memory_free(memory, scratch->head, scratch->shader_count * sizeof *scratch->head);
     gi_memory_free(memory, scratch->seen, SEEN_SIZE);
     gi_memory_free_lines(memory, scratch, 1, sizeof *scratch);
 }
@@ -144,7 +139,6 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Gi
     GiTileScratch *scratch = stage->scratch;
     scratch->points.count = scratch->segment_count = 0;
     scratch->weighted = scratch->shared = false;
-    memset(scratch->color, 0, (size_t)(extent->height * STRIDE) * sizeof *scratch->color);
     gi_tile_aim(stage, area, extent, offset_x, offset_y);
     for (int y = 0; y < extent->height; y += GI_BLOCK_SIDE) {
         for (int x = 0; x < extent->width; x += GI_BLOCK_SIDE) {
