@@ -94,10 +94,7 @@ static const char *skip_blank(const Scan *scan, const char *p) {
 
 static GiToken *put(Scan *scan, GiTokenKind kind, const char *begin, const char *end) {
     GiToken *token = &scan->tape->entries.data[scan->tape->entries.count++].token;
-    token->at = (uint32_t)(begin - scan->bytes);
-    token->size = (uint16_t)(end - begin);
-    token->kind = (uint8_t)kind;
-    token->count = 0;
+    *token = (GiToken){(uint32_t)(begin - scan->bytes), (uint16_t)(end - begin), (uint8_t)kind, 0};
     return token;
 }
 
@@ -168,7 +165,7 @@ static bool push_open(Scan *scan, const char *tag, size_t size) {
         scan->out_of_memory = true;
         return false;
     }
-    memcpy(scanner->open.data + scanner->open.count, tag, size);
+    gi_span_copy((GiSpan){tag, size}, scanner->open.data + scanner->open.count);
     scanner->open.data[scanner->open.count + size] = '>';
     scanner->open.count += size + 1;
     return true;
@@ -210,7 +207,9 @@ static const char *scan_end(Scan *scan, const char *tag) {
     size_t start = scanner->starts.data[scanner->starts.count - 1];
     size_t size = scanner->open.count - start - 1; /* of the name and > */
     if ((size_t)(scan->end - tag) < size + 2) return fail(scan, scan->end);
-    if (memcmp(scanner->open.data + start + 1, tag + 2, size) != 0) return fail(scan, tag);
+    if (!gi_span_equals((GiSpan){tag + 2, size}, scanner->open.data + start + 1)) {
+        return fail(scan, tag);
+    }
     scanner->open.count = start;
     scanner->starts.count--;
     put(scan, GI_TOKEN_END, tag, tag + 2 + size);
