@@ -166,8 +166,10 @@ static void check_points(
     fill_solids(&solids, random);
     GiBundle *bundle = &s->bundle;
     uint32_t rays[COUNT];
+    int first = random_below(random, SHAPES),
+        different = 1 + random_below(random, 2) * (SHAPES - first - 1);
     for (int i = 0; i < COUNT; i++) {
-        GiShapeRef ref = gi_shape_ref(kind, (uint32_t)random_below(random, SHAPES));
+        GiShapeRef ref = gi_shape_ref(kind, (uint32_t)(first + random_below(random, different)));
         put_ray(bundle, random, &solids, ref, i);
         rays[i] = (uint32_t)random_below(random, COUNT);
     }

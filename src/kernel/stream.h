@@ -161,13 +161,23 @@ static inline void hits_cones(Hits *hits, const GiCone *first, bool second_nappe
 
 #undef STREAM_GATHER
 
-/* As triangle_point. */
+/* Rows of floats, one for each lane, or one for all. */
+static inline void hits_rows(const float *const rows[GI_DOUBLES], int count, R columns[3]) {
+    if (count > 1) {
+        r_rows(rows, columns);
+    } else {
+        for (int i = 0; i < 3; i++) columns[i] = R_OF((double)rows[0][i]);
+    }
+}
+
+/* As triangle_point. Mostly all hits are on one triangle. */
 static inline void hits_triangles(Hits *hits, const GiShapes *shapes) {
     const float *corners[3][GI_DOUBLES], *normals[3][GI_DOUBLES];
     uint32_t triangles[GI_DOUBLES];
     unsigned smooth = 0;
+    const int count = u_is_one(hits->shape) ? 1 : GI_DOUBLES;
     u_store(triangles, hits->shape);
-    for (int k = 0; k < GI_DOUBLES; k++) {
+    for (int k = 0; k < count; k++) {
         uint32_t triangle = triangles[k], row[3];
         const uint32_t *own = shapes->triangles.corners[triangle];
         const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, triangle)];
@@ -179,7 +189,7 @@ static inline void hits_triangles(Hits *hits, const GiShapes *shapes) {
         }
     }
     R zero = R_OF(0), corner[3][3], part[3];
-    for (int i = 0; i < 3; i++) r_rows(corners[i], corner[i]);
+    for (int i = 0; i < 3; i++) hits_rows(corners[i], count, corner[i]);
     const gi_wide_Ray ray = {.ox = hits->o.x,
         .oy = hits->o.y,
         .oz = hits->o.z,
@@ -205,11 +215,11 @@ static inline void hits_triangles(Hits *hits, const GiShapes *shapes) {
         Wide blend = {zero, zero, zero};
         for (int i = 0; i < 3; i++) {
             R normal[3];
-            r_rows(normals[i], normal);
+            hits_rows(normals[i], count, normal);
             blend = wide_along(blend, (Wide){normal[0], normal[1], normal[2]}, part[i]);
         }
         M flat = R_EQUAL(blend.x, zero) & R_EQUAL(blend.y, zero) & R_EQUAL(blend.z, zero);
-        M blended = m_from_bits(smooth) & M_NOT(flat);
+        M blended = (count > 1 ? m_from_bits(smooth) : M_OF(true)) & M_NOT(flat);
         hits->n = (Wide){R_SELECT(blended, blend.x, hits->n.x),
             R_SELECT(blended, blend.y, hits->n.y), R_SELECT(blended, blend.z, hits->n.z)};
     }
