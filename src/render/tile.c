@@ -212,14 +212,14 @@ static bool store(const GiStage *stage, const GiRenderArea *area, const GiTileEx
         size_t at = (size_t)(y + row) * (size_t)area->crop_width + (size_t)x;
         float own[3 * STRIDE], *color = target->color != NULL ? target->color + 3 * at : own;
         store_color(sum + row * STRIDE, extent->width, count, exposure, color);
-        if (target->png != NULL &&
-            !gi_png_put(target->png, x, y + row, extent->width, color, stage->control->worker)) {
+        if (target->png != NULL && !gi_png_put(target->png, x, y + row, extent->width, color)) {
             return false;
         }
         if (scratch->seen == NULL) continue;
         store_seen(scratch->seen + row * STRIDE, extent->width, count, at, target);
     }
-    return true;
+    return target->png == NULL ||
+           gi_png_account(target->png, y, extent->height, extent->width, stage->control->worker);
 }
 
 bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
