@@ -46,7 +46,7 @@ static void add_camera_ray(Maker *maker, uint32_t x, uint32_t y) {
     gi_view_ray(&world->view, (x + 0.5) / scene->width,
         (scene->height - 1 - (double)y + 0.5) / scene->height, &origin, &direction);
     RaySet *set = &maker->sets[RAYS_CAMERA];
-    add_ray(set, origin, direction, world->eye_error, INFINITY);
+    add_ray(set, origin, direction, gi_world_eye_error(world, world->view.eye), INFINITY);
     GiTraceHit hit;
     if (!world->kernel->closest(&world->trace, &set->rays[set->count - 1], &hit)) return;
     GiSurfacePoint at =

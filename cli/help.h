@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * The help, as it appears on a screen, in the manual and in the documentation. */
+ * Help on the screen, as a manual page, and as a table for the documentation. */
 #pragma once
 
-#include "options.h"
+#include "arguments.h"
 
-/* Prints to standard output. */
-void cli_help_print(CliHelpFormat format);
+/* Answers what was asked for, about the verb or, when none was named, the whole program. */
+void cli_help_print(const CliArguments *arguments);

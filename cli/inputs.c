@@ -163,18 +163,34 @@ static CliStatus check_collisions(const CliJobs *jobs) {
     return status;
 }
 
-CliStatus cli_jobs_init(CliJobs *jobs, const CliOptions *options) {
+static CliStatus check_operands(const CliOperands *scenes) {
+    if (scenes->count == 0) return cli_message_usage("no scene given");
+    int standard_inputs = 0;
+    for (int i = 0; i < scenes->count; i++) {
+        if (scenes->items[i][0] == '\0') return cli_message_usage("a scene has an empty name");
+        standard_inputs += strcmp(scenes->items[i], "-") == 0;
+    }
+    if (standard_inputs > 1) return cli_message_usage("standard input can be read only once");
+    return CLI_OK;
+}
+
+CliStatus cli_jobs_init_plain(CliJobs *jobs, const CliOperands *scenes) {
     *jobs = (CliJobs){0};
-    CliStatus status = CLI_OK;
-    for (int i = 0; i < options->scene_count && status < CLI_USAGE; i++) {
-        const char *path = options->scenes[i];
+    CliStatus status = check_operands(scenes);
+    for (int i = 0; i < scenes->count && status < CLI_USAGE; i++) {
+        const char *path = scenes->items[i];
         CliStatus added = strcmp(path, "-") != 0 && is_folder(path)
                               ? add_folder(jobs, path)
                               : add(jobs, join(NULL, path, ""));
         status = cli_status_worse(status, added);
     }
+    return status;
+}
+
+CliStatus cli_jobs_init(CliJobs *jobs, const CliOperands *scenes, const char *output) {
+    CliStatus status = cli_jobs_init_plain(jobs, scenes);
     if (status < CLI_USAGE && jobs->count > 0) {
-        status = cli_status_worse(status, name_pictures(jobs, options->output));
+        status = cli_status_worse(status, name_pictures(jobs, output));
     }
     if (status < CLI_USAGE && jobs->count > 1) {
         status = cli_status_worse(status, check_collisions(jobs));

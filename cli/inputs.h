@@ -2,7 +2,7 @@
  * Which scenes are drawn, and where their pictures go. */
 #pragma once
 
-#include "options.h"
+#include "verb.h"
 
 typedef struct CliJob {
     char *scene;   /* a path, or "-" */
@@ -14,9 +14,12 @@ typedef struct CliJobs {
     int count, capacity;
 } CliJobs;
 
-/* Turns the arguments into jobs, folders spread out. Says what is wrong; with CLI_INPUT the jobs
- * that are right can still be done. */
-CliStatus cli_jobs_init(CliJobs *jobs, const CliOptions *options);
+/* Turns the operands into jobs, folders spread out; output is the value of --output, or null. Says
+ * what is wrong; with CLI_INPUT the jobs that are right can still be done. */
+CliStatus cli_jobs_init(CliJobs *jobs, const CliOperands *scenes, const char *output);
+
+/* The same of what draws no picture: the jobs have none. */
+CliStatus cli_jobs_init_plain(CliJobs *jobs, const CliOperands *scenes);
 void cli_jobs_reset(CliJobs *jobs);
 
 bool cli_job_reads_standard_input(const CliJob *job);

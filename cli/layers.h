@@ -3,7 +3,7 @@
  * source apart. In an EXR file these are layers, otherwise they are files beside the picture. */
 #pragma once
 
-#include "options.h"
+#include "render_options.h"
 
 typedef struct CliLayer {
     char name[24];          /* "depth", "light.2" */

@@ -2,13 +2,10 @@
  * One scene at a time: create, load, commit, render and save, destroy. A scene that fails is
  * reported, leaves no picture, and does not stop the others; an interrupt stops all. */
 #define _XOPEN_SOURCE 700
-#include "render_command.h"
-
-#include "inputs.h"
 #include "interrupt.h"
 #include "layers.h"
 #include "message.h"
-#include "progress.h"
+#include "scene_file.h"
 #include "stats.h"
 
 #include <errno.h>
@@ -20,106 +17,26 @@
 
 /* One scene on its way to a picture. */
 typedef struct Drawing {
-    const CliOptions *options;
-    const CliJob *job;
-    GlintScene *scene;
+    const CliRenderOptions *options;
+    CliSceneFile file;
     float *pixels;
     CliLayers layers;
     GlintRenderDesc area;
-    GlintMonitor monitor;
-    CliProgress progress;
     CliStats stats;
-    GlintError error; /* of the call that failed */
-    int error_count, warning_count;
 } Drawing;
-
-/* ---------------------------------------------------------------- callbacks */
-
-static void on_progress(void *user, GlintPhase phase, double fraction) {
-    Drawing *drawing = user;
-    cli_progress_update(&drawing->progress, phase, fraction);
-}
-
-static bool on_cancelled(void *user) {
-    (void)user;
-    return cli_interrupt_seen();
-}
-
-static void on_diagnostic(void *user, const GlintDiagnostic *diagnostic) {
-    Drawing *drawing = user;
-    if (diagnostic->severity == GLINT_SEVERITY_ERROR) {
-        drawing->error_count++;
-    } else {
-        drawing->warning_count++;
-    }
-    cli_progress_clear(&drawing->progress);
-    cli_message_diagnostic(diagnostic);
-}
-
-static int64_t on_read(void *user, void *buffer, size_t size) {
-    Drawing *drawing = user;
-    ssize_t count;
-    do {
-        count = read(STDIN_FILENO, buffer, size);
-    } while (count < 0 && errno == EINTR && !cli_interrupt_seen());
-    if (count > 0) drawing->progress.read_bytes += (uint64_t)count;
-    return count;
-}
-
-/* ---------------------------------------------------------------- failures */
-
-/* Reports the call that failed, unless its findings have been reported already. */
-static void report(Drawing *drawing) {
-    const GlintError *error = &drawing->error;
-    cli_progress_clear(&drawing->progress);
-    const char *name = cli_job_name(drawing->job);
-    if (drawing->error_count == 0) {
-        GlintDiagnostic diagnostic = {.severity = GLINT_SEVERITY_ERROR,
-            .path = error->path[0] != '\0' ? error->path : name,
-            .line = error->line,
-            .column = error->column,
-            .message =
-                error->message[0] != '\0' ? error->message : glint_status_text(error->status),
-            .caret_length = 1};
-        cli_message_diagnostic(&diagnostic);
-        return;
-    }
-    fprintf(stderr, "%s: %d %s", name, drawing->error_count,
-        drawing->error_count == 1 ? "error" : "errors");
-    if (drawing->warning_count > 0) {
-        fprintf(stderr, ", %d %s", drawing->warning_count,
-            drawing->warning_count == 1 ? "warning" : "warnings");
-    }
-    fputc('\n', stderr);
-}
-
-/* What the failed call means to the shell. file_status tells what GLINT_ERROR_FILE is: a scene that
- * cannot be read is the input's fault, a picture that cannot be written the machine's. */
-static CliStatus fail(Drawing *drawing, GlintStatus status, CliStatus file_status) {
-    /* An interrupt may also show itself as a failed read. */
-    if (status == GLINT_CANCELLED || cli_interrupt_seen()) return CLI_OK;
-    drawing->error.status = status;
-    report(drawing);
-    switch (status) {
-    case GLINT_ERROR_FILE: return file_status;
-    case GLINT_ERROR_MEMORY:
-    case GLINT_ERROR_THREAD: return CLI_MACHINE;
-    default: return CLI_INPUT;
-    }
-}
 
 static CliStatus fail_machine(
     Drawing *drawing, GlintStatus status, const char *path, const char *text) {
-    snprintf(drawing->error.path, sizeof drawing->error.path, "%s", path);
-    snprintf(drawing->error.message, sizeof drawing->error.message, "%s", text);
-    return fail(drawing, status, CLI_MACHINE);
+    snprintf(drawing->file.error.path, sizeof drawing->file.error.path, "%s", path);
+    snprintf(drawing->file.error.message, sizeof drawing->file.error.message, "%s", text);
+    return cli_scene_file_fail(&drawing->file, status, CLI_MACHINE);
 }
 
 /* ---------------------------------------------------------------- steps */
 
 /* A picture that cannot be written is better known before the drawing than after it. */
 static CliStatus check_picture(Drawing *drawing) {
-    const char *picture = drawing->job->picture;
+    const char *picture = drawing->file.job->picture;
     struct stat info;
     bool exists = lstat(picture, &info) == 0;
     if (exists && S_ISDIR(info.st_mode)) {
@@ -131,7 +48,7 @@ static CliStatus check_picture(Drawing *drawing) {
     const char *base = cli_path_base(picture);
     size_t length = (size_t)(base - picture);
     char *folder = malloc(length + 2);
-    if (folder == NULL) return fail(drawing, GLINT_ERROR_MEMORY, CLI_MACHINE);
+    if (folder == NULL) return cli_scene_file_fail(&drawing->file, GLINT_ERROR_MEMORY, CLI_MACHINE);
     snprintf(folder, length + 2, "%.*s", length > 0 ? (int)length : 1, length > 0 ? picture : ".");
     CliStatus status = CLI_OK;
     if (access(folder, W_OK) != 0) {
@@ -143,44 +60,43 @@ static CliStatus check_picture(Drawing *drawing) {
     return status;
 }
 
-static GlintStatus load(Drawing *drawing) {
-    if (!cli_job_reads_standard_input(drawing->job)) {
-        return glint_scene_load_file(
-            drawing->scene, drawing->job->scene, &drawing->monitor, &drawing->error);
-    }
-    return glint_scene_load_stream(drawing->scene, on_read, drawing, cli_job_name(drawing->job),
-        &drawing->monitor, &drawing->error);
-}
-
 /* The part to draw, now that the scene's size is known. */
 static CliStatus choose_area(Drawing *drawing) {
-    const CliOptions *options = drawing->options;
+    const CliRenderOptions *options = drawing->options;
     GlintSceneInfo info;
-    glint_scene_info(drawing->scene, &info);
+    glint_scene_info(drawing->file.scene, &info);
     CliStats *stats = &drawing->stats;
-    stats->width = options->width > 0 ? options->width : info.width;
-    stats->height = options->height > 0 ? options->height : info.height;
-    bool crop = options->crop_width > 0;
-    stats->crop_x = crop ? options->crop_x : 0;
-    stats->crop_y = crop ? options->crop_y : 0;
-    stats->crop_width = crop ? options->crop_width : stats->width;
-    stats->crop_height = crop ? options->crop_height : stats->height;
+    /* Of a picture drawn anew, its recipe stands for the options that are not given. */
+    const GlintRecipe *recipe = drawing->file.recipe;
+    bool sized = options->width > 0, crop = options->crop_width > 0;
+    bool again = recipe != NULL && !sized && !crop;
+    stats->width = sized ? options->width : recipe != NULL ? recipe->width : info.width;
+    stats->height = sized ? options->height : recipe != NULL ? recipe->height : info.height;
+    stats->crop_x = crop ? options->crop_x : again ? recipe->crop_x : 0;
+    stats->crop_y = crop ? options->crop_y : again ? recipe->crop_y : 0;
+    stats->crop_width = crop ? options->crop_width : again ? recipe->crop_width : stats->width;
+    stats->crop_height = crop ? options->crop_height : again ? recipe->crop_height : stats->height;
     if ((int64_t)stats->crop_x + stats->crop_width > stats->width ||
         (int64_t)stats->crop_y + stats->crop_height > stats->height) {
-        cli_progress_clear(&drawing->progress);
+        cli_progress_clear(&drawing->file.progress);
         return cli_message_usage("--crop %d,%d,%d,%d reaches outside of the %d x %d pixels of '%s'",
             stats->crop_x, stats->crop_y, stats->crop_width, stats->crop_height, stats->width,
-            stats->height, cli_job_name(drawing->job));
+            stats->height, cli_job_name(drawing->file.job));
     }
     drawing->area = glint_render_desc_default();
-    drawing->area.width = options->width;
-    drawing->area.height = options->height;
+    drawing->area.width = stats->width;
+    drawing->area.height = stats->height;
     drawing->area.samples = options->samples;
+    if (recipe != NULL) {
+        if (options->samples == 0) drawing->area.samples = recipe->samples;
+        drawing->area.light = recipe->light;
+        drawing->area.sampling = recipe->sampling;
+    }
     drawing->area.crop_x = stats->crop_x;
     drawing->area.crop_y = stats->crop_y;
-    drawing->area.crop_width = crop ? stats->crop_width : 0;
-    drawing->area.crop_height = crop ? stats->crop_height : 0;
-    drawing->area.monitor = &drawing->monitor;
+    drawing->area.crop_width = stats->crop_width;
+    drawing->area.crop_height = stats->crop_height;
+    drawing->area.monitor = &drawing->file.monitor;
     return CLI_OK;
 }
 
@@ -197,7 +113,7 @@ static bool allocate_pixels(Drawing *drawing) {
     drawing->pixels = malloc((size_t)size);
     if (drawing->pixels == NULL) return false;
     GlintSceneInfo info;
-    glint_scene_info(drawing->scene, &info);
+    glint_scene_info(drawing->file.scene, &info);
     if (!cli_layers_init(&drawing->layers, drawing->options->layers, (size_t)pixel_count,
             (int)info.light_count)) {
         return false;
@@ -209,32 +125,75 @@ static bool allocate_pixels(Drawing *drawing) {
 /* A picture with layers is drawn several times before it is written. */
 static GlintStatus draw_layers(Drawing *drawing, const GlintSaveDesc *desc) {
     CliLayers *layers = &drawing->layers;
-    GlintError *error = &drawing->error;
+    GlintError *error = &drawing->file.error;
     if (!allocate_pixels(drawing)) {
         snprintf(error->message, sizeof error->message, "not enough memory for the picture");
         return GLINT_ERROR_MEMORY;
     }
-    GlintStatus status = glint_render(drawing->scene, &drawing->area, drawing->pixels, error);
+    GlintStatus status = glint_render(drawing->file.scene, &drawing->area, drawing->pixels, error);
     if (status == GLINT_OK) {
-        status = cli_layers_render(layers, drawing->scene, &drawing->area, error);
+        status = cli_layers_render(layers, drawing->file.scene, &drawing->area, error);
     }
     if (status != GLINT_OK) return status;
     GlintImage image = {.width = drawing->stats.crop_width,
         .height = drawing->stats.crop_height,
         .pixels = drawing->pixels};
     double began = cli_clock();
-    status = cli_layers_save(layers, &image, drawing->job->picture, desc, error);
+    status = cli_layers_save(layers, &image, drawing->file.job->picture, desc, error);
     drawing->stats.write_seconds = cli_clock() - began;
     return status;
 }
 
 static GlintStatus draw_plain(Drawing *drawing, const GlintSaveDesc *desc) {
     double began = cli_clock();
-    GlintStatus status = glint_render_save(
-        drawing->scene, &drawing->area, drawing->job->picture, desc, &drawing->error);
+    GlintStatus status = glint_render_save(drawing->file.scene, &drawing->area,
+        drawing->file.job->picture, desc, &drawing->file.error);
     GlintStats stats;
-    glint_scene_stats(drawing->scene, &stats);
+    glint_scene_stats(drawing->file.scene, &stats);
     drawing->stats.write_seconds = cli_clock() - began - stats.trace_seconds;
+    return status;
+}
+
+/* The scene's name: of a picture drawn anew, that of the scene inside. */
+static const char *title_of(const CliSceneFile *file) {
+    return cli_path_base(
+        file->recipe != NULL ? file->recipe->files[0].name : cli_job_name(file->job));
+}
+
+static GlintStatus draw_and_save(Drawing *drawing) {
+    CliSceneFile *file = &drawing->file;
+    GlintRecipe *recipe = NULL, own;
+    GlintRecipeFile *files = NULL;
+    GlintStatus status = glint_scene_recipe(
+        file->scene, &drawing->area, drawing->options->embed, &recipe, &file->error);
+    if (status != GLINT_OK) return status;
+    const char *bad = drawing->options->embed ? cli_unpack_bad_name(recipe) : NULL;
+    if (bad != NULL) {
+        snprintf(file->error.message, sizeof file->error.message,
+            "--embed needs names that are not absolute, and the scene names '%s'", bad);
+        glint_recipe_destroy(recipe);
+        return GLINT_ERROR_SCENE;
+    }
+    GlintSaveDesc save = glint_save_desc_default();
+    save.title = title_of(file);
+    save.thread_count = drawing->options->thread_count;
+    save.monitor = &file->monitor;
+    save.recipe = recipe;
+    if (file->recipe != NULL) {
+        /* The scene inside was unpacked to a place that is soon gone. */
+        own = *recipe;
+        files = malloc((size_t)own.file_count * sizeof *files);
+        if (files != NULL) {
+            memcpy(files, own.files, (size_t)own.file_count * sizeof *files);
+            files[0].name = file->recipe->files[0].name;
+            own.files = files;
+            save.recipe = &own;
+        }
+    }
+    status =
+        drawing->options->layers == 0 ? draw_plain(drawing, &save) : draw_layers(drawing, &save);
+    free(files);
+    glint_recipe_destroy(recipe);
     return status;
 }
 
@@ -246,69 +205,82 @@ static CliStatus draw(Drawing *drawing) {
     desc.dialect = drawing->options->dialect;
     desc.thread_count = drawing->options->thread_count;
     desc.isa = drawing->options->isa;
-    desc.diagnostic = on_diagnostic;
-    desc.diagnostic_user = drawing;
-    GlintStatus status = glint_scene_create(&desc, &drawing->scene, &drawing->error);
-    if (status != GLINT_OK) return fail(drawing, status, CLI_MACHINE);
-    status = load(drawing);
-    if (status != GLINT_OK) return fail(drawing, status, CLI_INPUT);
+    desc.keep_sources = drawing->options->embed;
+    refused = cli_scene_file_load(&drawing->file, &desc);
+    if (refused != CLI_OK) return refused;
     refused = choose_area(drawing);
     if (refused != CLI_OK) return refused;
-    status = glint_scene_commit(drawing->scene, &drawing->monitor, &drawing->error);
-    if (status != GLINT_OK) return fail(drawing, status, CLI_INPUT);
-    GlintSaveDesc save = glint_save_desc_default();
-    save.title = cli_path_base(cli_job_name(drawing->job));
-    save.thread_count = drawing->options->thread_count;
-    save.monitor = &drawing->monitor;
-    status =
-        drawing->options->layers == 0 ? draw_plain(drawing, &save) : draw_layers(drawing, &save);
+    refused = cli_scene_file_commit(&drawing->file);
+    if (refused != CLI_OK) return refused;
+    GlintStatus status = draw_and_save(drawing);
     if (status == GLINT_OK) return CLI_OK;
-    if (status == GLINT_ERROR_FILE && drawing->error.path[0] == '\0') {
-        snprintf(drawing->error.path, sizeof drawing->error.path, "%s", drawing->job->picture);
+    if (status == GLINT_ERROR_FILE && drawing->file.error.path[0] == '\0') {
+        snprintf(drawing->file.error.path, sizeof drawing->file.error.path, "%s",
+            drawing->file.job->picture);
     }
-    return fail(drawing, status, CLI_MACHINE);
+    return cli_scene_file_fail(&drawing->file, status, CLI_MACHINE);
 }
 
 /* ---------------------------------------------------------------- all scenes */
 
 static CliStatus announce(Drawing *drawing) {
     CliStats *stats = &drawing->stats;
-    stats->job = drawing->job;
-    stats->total_seconds = cli_clock() - drawing->progress.began;
+    stats->job = drawing->file.job;
+    stats->total_seconds = cli_clock() - drawing->file.progress.began;
     stats->resident_peak = cli_stats_resident_peak();
-    glint_scene_info(drawing->scene, &stats->scene);
+    glint_scene_info(drawing->file.scene, &stats->scene);
     if (drawing->options->samples > 0) stats->scene.samples = drawing->options->samples;
-    glint_scene_stats(drawing->scene, &stats->library);
+    glint_scene_stats(drawing->file.scene, &stats->library);
     CliStatsFormat format = drawing->options->stats;
     if (format == CLI_STATS_JSON) {
         cli_stats_print_json(stats);
     } else if (!drawing->options->quiet) {
-        puts(drawing->job->picture);
+        puts(drawing->file.job->picture);
     }
     CliStatus status = cli_message_flush_output();
     if (format == CLI_STATS_TEXT) cli_stats_print_text(stats);
     return status;
 }
 
-CliStatus cli_render(const CliOptions *options) {
+static CliStatus list_isa(void) {
+    for (int i = 0; glint_isa_name(i) != NULL; i++) puts(glint_isa_name(i));
+    return cli_message_flush_output();
+}
+
+static CliStatus run(void *values, const CliOperands *operands) {
+    const CliRenderOptions *options = values;
+    if (options->list_isa) return list_isa();
     CliJobs jobs;
-    CliStatus status = cli_jobs_init(&jobs, options);
+    CliStatus status = cli_jobs_init(&jobs, operands, options->output);
     bool progress = !options->quiet && cli_message_on_terminal();
     if (status < CLI_USAGE) {
         for (int i = 0; i < jobs.count && !cli_interrupt_seen(); i++) {
-            Drawing drawing = {.options = options, .job = &jobs.items[i]};
-            drawing.monitor = (GlintMonitor){on_progress, on_cancelled, &drawing};
-            cli_progress_begin(
-                &drawing.progress, progress, cli_job_name(drawing.job), i, jobs.count);
+            Drawing drawing = {.options = options};
+            cli_scene_file_begin(&drawing.file, &jobs.items[i], i, jobs.count, progress);
             CliStatus drawn = draw(&drawing);
-            cli_progress_clear(&drawing.progress);
+            cli_progress_clear(&drawing.file.progress);
             if (drawn == CLI_OK && !cli_interrupt_seen()) drawn = announce(&drawing);
             status = cli_status_worse(status, drawn);
             free(drawing.pixels);
             cli_layers_reset(&drawing.layers);
-            glint_scene_destroy(drawing.scene);
+            cli_scene_file_end(&drawing.file);
         }
     }
     cli_jobs_reset(&jobs);
     return status;
 }
+
+static CliRenderOptions defaults = {.dialect = GLINT_DIALECT_AUTO};
+
+const CliVerb cli_verb_render = {.name = "render",
+    .operands = "SCENE...",
+    .summary = "draw scenes",
+    .about = "Draws scenes. A SCENE is an XML file, a folder (all *.xml in it), or - for\n"
+             "standard input. The picture of a.xml is a.xml.png beside it.",
+    .notes = NULL,
+    .example_text = "draw one scene larger than it asks for, on four threads",
+    .example = "glint --size 1920x1080 -t 4 -o big.png scenes/solids.xml",
+    .options = cli_render_option_table,
+    .option_count = CLI_RENDER_OPTION_COUNT,
+    .values = &defaults,
+    .run = run};

@@ -2,6 +2,8 @@
  * The numbers of one picture, for people and for programs. */
 #pragma once
 
+#include "glint/glint.h"
+
 #include "inputs.h"
 
 typedef struct CliStats {

@@ -62,6 +62,7 @@ GlintStatus glint_scene_create(const GlintSceneDesc *desc, GlintScene **result, 
     scene->thread_count = desc->thread_count;
     scene->diagnostic = desc->diagnostic;
     scene->diagnostic_user = desc->diagnostic_user;
+    scene->keeps_sources = desc->keep_sources;
     scene->stats.isa = kernel->name;
     if (!gi_scene_init(&scene->model, &scene->memory)) {
         glint_scene_destroy(scene);
@@ -76,6 +77,8 @@ void glint_scene_destroy(GlintScene *scene) {
     gi_world_reset(&scene->world, &scene->memory);
     gi_pool_destroy(scene->pool);
     gi_scene_reset(&scene->model);
+    if (scene->sources.memory != NULL) gi_sources_reset(&scene->sources);
+    gi_file_names_reset(&scene->missing_files, &scene->memory);
     GI_ASSERT(atomic_load(&scene->memory.used) == 0);
     GlintAllocator allocator = scene->memory.allocator;
     allocator.reallocate(allocator.user, scene, sizeof *scene, 0);
@@ -98,6 +101,12 @@ static GlintStatus load(GlintScene *scene, GiReaderSource *source, GlintError *e
     source->diagnostic_user = scene->diagnostic_user;
     source->dialect = scene->dialect;
     source->thread_count = scene->thread_count;
+    source->missing_files = &scene->missing_files;
+    if (scene->keeps_sources) {
+        scene->broken = !gi_sources_init(&scene->sources, &scene->memory, source->name);
+        if (scene->broken) return gi_error_memory(error);
+        source->sources = &scene->sources;
+    }
     double start = gi_machine_seconds();
     GiReaderResult result = {0};
     GlintStatus status = gi_reader_load(&scene->model, source, &result, error);
@@ -218,6 +227,30 @@ GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, G
     return GLINT_OK;
 }
 
+bool glint_scene_file(const GlintScene *scene, int index, GlintSceneFile *file) {
+    GI_ASSERT(scene != NULL && file != NULL && index >= 0);
+    const GiScene *model = &scene->model;
+    if ((size_t)index >= model->files.count) return false;
+    const GiSceneFile *found = &model->files.data[index];
+    *file = (GlintSceneFile){.kind = found->kind,
+        .name = model->file_names.data + found->name,
+        .path = model->file_names.data + found->path,
+        .size = found->size,
+        .digest = found->digest};
+    return true;
+}
+
+bool glint_scene_source(
+    GlintScene *scene, GlintObjectKind kind, uint32_t index1, GlintSource *source) {
+    GI_ASSERT(scene != NULL && source != NULL && (unsigned)kind < GLINT_OBJECT_KIND_COUNT);
+    return gi_sources_find(&scene->sources, kind, index1, source);
+}
+
+const char *glint_scene_missing_file(const GlintScene *scene, size_t index) {
+    GI_ASSERT(scene != NULL);
+    return gi_file_names_at(&scene->missing_files, index);
+}
+
 void glint_scene_info(const GlintScene *scene, GlintSceneInfo *info) {
     GI_ASSERT(scene != NULL && info != NULL);
     const GiScene *model = &scene->model;
@@ -240,9 +273,8 @@ void glint_scene_stats(const GlintScene *scene, GlintStats *stats) {
 
 GlintRenderDesc glint_render_desc_default(void) { return (GlintRenderDesc){.cookie = GI_COOKIE}; }
 
-/* What desc asks for, and the workers for it; color and png are left to the caller. */
-static GlintStatus plan_render(GlintScene *scene, const GlintRenderDesc *desc, GiRenderArea *area,
-    GiRenderTarget *target, GlintError *error) {
+GlintStatus gi_scene_plan_render(GlintScene *scene, const GlintRenderDesc *desc, GiRenderArea *area,
+    GiRenderTarget *target, GiView *view, GlintError *error) {
     if (scene == NULL || desc == NULL) return ARGUMENT(error, "scene or desc is null");
     if (desc->cookie != GI_COOKIE) return ARGUMENT(error, NO_DEFAULT("glint_render_desc_default"));
     if (!scene->committed) return ARGUMENT(error, "the scene is not committed");
@@ -272,8 +304,15 @@ static GlintStatus plan_render(GlintScene *scene, const GlintRenderDesc *desc, G
     if (desc->light < -1 || desc->light > (int)scene->model.lights.count) {
         return ARGUMENT(error, "there is no such light");
     }
+    GiCamera camera = scene->model.camera;
+    if (desc->camera != NULL) {
+        GlintStatus status = gi_glint_camera(desc->camera, &camera, error);
+        if (status != GLINT_OK) return status;
+    }
+    *view = gi_view_of(&camera);
     *target = (GiRenderTarget){
         .samples = desc->samples != 0 ? desc->samples : scene->model.samples,
+        .view = view,
         .depth = desc->depth,
         .normal = desc->normal,
         .albedo = desc->albedo,
@@ -304,7 +343,8 @@ GlintStatus glint_render(
     if (pixels == NULL) return ARGUMENT(error, "pixels is null");
     GiRenderArea area;
     GiRenderTarget target;
-    GlintStatus status = plan_render(scene, desc, &area, &target, error);
+    GiView view;
+    GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, &view, error);
     if (status != GLINT_OK) return status;
     target.color = pixels;
     return render(scene, &area, desc->monitor, &target, error);
@@ -327,12 +367,12 @@ static GlintStatus save_afterwards(GlintScene *scene, const GiRenderArea *area,
 /* The PNG grows with the picture, in a file that shows only when it is whole. */
 static GlintStatus save_meanwhile(GlintScene *scene, const GiRenderArea *area,
     GiRenderTarget *target, const GlintMonitor *monitor, const GlintSaveDesc *save,
-    GiFileWriter *file, GlintError *error) {
+    const GiPngExtras *extras, GiFileWriter *file, GlintError *error) {
     const GiPngDesc desc = {.width = area->crop_width,
         .height = area->crop_height,
         .worker_count = gi_pool_worker_count(scene->pool),
         .gamma = scene->kernel->encode,
-        .title = save->title,
+        .extras = *extras,
         .sink = gi_file_write,
         .user = file};
     GlintStatus status = gi_png_create(&scene->memory, &desc, &target->png, error);
@@ -348,20 +388,44 @@ static GlintStatus save_meanwhile(GlintScene *scene, const GiRenderArea *area,
     return status;
 }
 
+static GlintStatus save_png(GlintScene *scene, const GiRenderArea *area, GiRenderTarget *target,
+    const GlintRenderDesc *desc, const char *path, const GlintSaveDesc *save, GlintError *error) {
+    GiFileWriter file;
+    if (save->layer_count > 0 || !gi_file_write_begin_hidden(&file, path)) {
+        return save_afterwards(scene, area, desc, path, save, error);
+    }
+    GiImageExtras extras;
+    GlintStatus status;
+    if (gi_image_make_extras(&scene->memory, save, &extras)) {
+        status =
+            save_meanwhile(scene, area, target, desc->monitor, save, &extras.extras, &file, error);
+    } else {
+        gi_file_write_abandon(&file);
+        status = gi_error_memory(error);
+    }
+    gi_image_free_extras(&scene->memory, &extras);
+    return status;
+}
+
 GlintStatus glint_render_save(GlintScene *scene, const GlintRenderDesc *desc, const char *path,
     const GlintSaveDesc *save, GlintError *error) {
     GiRenderArea area;
     GiRenderTarget target;
-    GlintStatus status = plan_render(scene, desc, &area, &target, error);
+    GiView view;
+    GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, &view, error);
     if (status == GLINT_OK) status = gi_image_check_desc(save, error);
     if (status == GLINT_OK) status = glint_image_check_path(path, error);
     if (status != GLINT_OK) return status;
-    GiFileWriter file;
-    if (gi_image_is_png(path) && save->layer_count == 0 &&
-        gi_file_write_begin_hidden(&file, path)) {
-        return save_meanwhile(scene, &area, &target, desc->monitor, save, &file, error);
-    }
-    return save_afterwards(scene, &area, desc, path, save, error);
+    if (!gi_image_is_png(path)) return save_afterwards(scene, &area, desc, path, save, error);
+    GlintRecipe *made = NULL;
+    GlintSaveDesc own = *save;
+    /* A recipe has no word for a camera that is not the scene's. */
+    bool makes = save->recipe == NULL && desc->camera == NULL;
+    if (makes) status = glint_scene_recipe(scene, desc, false, &made, error);
+    if (made != NULL) own.recipe = made;
+    if (status == GLINT_OK) status = save_png(scene, &area, &target, desc, path, &own, error);
+    glint_recipe_destroy(made);
+    return status;
 }
 
 /* ---------------------------------------------------------------- single rays */

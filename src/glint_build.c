@@ -2,6 +2,7 @@
  * The public functions that build a scene by calls: each checks its desc and copies it. */
 #include "glint/glint.h"
 
+#include "base/assert.h"
 #include "base/cookie.h"
 #include "glint_scene.h"
 
@@ -124,12 +125,13 @@ static const char *check_camera(const GlintCameraDesc *desc) {
     return NULL;
 }
 
-GlintStatus glint_scene_set_camera(
-    GlintScene *scene, const GlintCameraDesc *desc, GlintError *error) {
-    CHECK_OPEN(scene, desc, "glint_camera_desc_default", error);
+GlintStatus gi_glint_camera(const GlintCameraDesc *desc, GiCamera *camera, GlintError *error) {
+    if (desc->cookie != GI_COOKIE) {
+        return ARGUMENT(error, "the desc was not made by glint_camera_desc_default");
+    }
     const char *fault = check_camera(desc);
     if (fault != NULL) return ARGUMENT(error, "%s", fault);
-    GiCamera camera = {
+    *camera = (GiCamera){
         .type = desc->type,
         .view_point = gi_vec_from(desc->view_point),
         .view_direction = gi_vec_from(desc->view_direction),
@@ -140,11 +142,57 @@ GlintStatus glint_scene_set_camera(
         .view_height = desc->view_height,
     };
     /* What is left is a matter of two vectors; the model's check names them as files do. */
-    if (gi_scene_check_camera(&camera) != NULL) {
+    if (gi_scene_check_camera(camera) != NULL) {
         return ARGUMENT(error, "view_up is parallel to the projection normal");
     }
+    return GLINT_OK;
+}
+
+GlintStatus glint_scene_set_camera(
+    GlintScene *scene, const GlintCameraDesc *desc, GlintError *error) {
+    CHECK_OPEN(scene, desc, "glint_camera_desc_default", error);
+    GiCamera camera;
+    GlintStatus status = gi_glint_camera(desc, &camera, error);
+    if (status != GLINT_OK) return status;
     scene->model.camera = camera;
     scene->model.has_camera = true;
+    return GLINT_OK;
+}
+
+static void store3(double to[3], GiVec v) {
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
+}
+
+bool glint_scene_camera(const GlintScene *scene, GlintCameraDesc *desc) {
+    GI_ASSERT(scene != NULL && desc != NULL);
+    const GiCamera *camera = &scene->model.camera;
+    if (!scene->model.has_camera) return false;
+    *desc = glint_camera_desc_default();
+    desc->type = camera->type;
+    store3(desc->view_point, camera->view_point);
+    store3(desc->view_direction, camera->view_direction);
+    store3(desc->view_up, camera->view_up);
+    store3(desc->projection_normal, camera->projection_normal);
+    desc->projection_distance = camera->projection_distance;
+    desc->view_width = camera->view_width;
+    desc->view_height = camera->view_height;
+    return true;
+}
+
+GlintStatus glint_camera_ray(
+    const GlintCameraDesc *desc, double a, double b, GlintRay *ray, GlintError *error) {
+    if (desc == NULL || ray == NULL) return ARGUMENT(error, "camera or ray is null");
+    GiCamera camera;
+    GlintStatus status = gi_glint_camera(desc, &camera, error);
+    if (status != GLINT_OK) return status;
+    GiView view = gi_view_of(&camera);
+    GiVec origin, direction;
+    gi_view_ray(&view, a, b, &origin, &direction);
+    *ray = (GlintRay){.t_min = 0, .t_max = INFINITY};
+    store3(ray->origin, origin);
+    store3(ray->direction, direction);
     return GLINT_OK;
 }
 

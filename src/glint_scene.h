@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "reader/reader.h"
 #include "render/render.h"
 #include "sched/pool.h"
 
@@ -16,9 +17,20 @@ struct GlintScene {
     int thread_count;
     GlintDiagnosticFn diagnostic;
     void *diagnostic_user;
-    bool committed, broken; /* broken: a load or commit failed */
+    bool keeps_sources;
+    GiSources sources;         /* of what a file has brought; all zero otherwise */
+    GiFileNames missing_files; /* that the scene file names */
+    bool committed, broken;    /* broken: a load or commit failed */
     GlintStats stats;
 };
+
+/* The camera that a desc describes. Errors: ARGUMENT. */
+GlintStatus gi_glint_camera(const GlintCameraDesc *desc, GiCamera *camera, GlintError *error);
+
+/* What desc asks for, and the workers for it; color and png are left to the caller. The target
+ * points at *view. Errors: those of glint_render. */
+GlintStatus gi_scene_plan_render(GlintScene *scene, const GlintRenderDesc *desc, GiRenderArea *area,
+    GiRenderTarget *target, GiView *view, GlintError *error);
 
 #define ARGUMENT(error, ...) gi_error_set((error), GLINT_ERROR_ARGUMENT, __VA_ARGS__)
 

@@ -41,7 +41,9 @@ for file in src/*/*.h; do
     esac
     check "${file#src/}" "$cc" -std=c11 -Wall -Wextra -x c
 done
-for file in cli/*.h; do check "$file" "$cc" -std=c11 -Wall -Wextra -I. -x c; done
+for file in cli/*.h cli/*/*.h; do
+    check "${file#cli/}" "$cc" -std=c11 -Wall -Wextra -Icli -x c
+done
 
 echo "$passed passed, $failed failed, $skipped skipped"
 [ $failed -eq 0 ]

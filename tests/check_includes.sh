@@ -29,6 +29,8 @@ reader: scene mesh shape light texture port
 render: sample light texture shade camera kernel accel image sched scene shape port
 glint.c: $all glint_scene.h
 glint_build.c: $all glint_scene.h
+glint_explain.c: $all glint_scene.h
+glint_recipe.c: $all glint_scene.h
 glint_scene.h: $all
 "
 
@@ -67,7 +69,8 @@ problems=$(printf '%s\n' "$report" | grep '^FAIL')
 failed=0
 
 # The program sees the public header, its own files, and the system.
-strangers=$(grep -nE '#[[:space:]]*include[[:space:]]*"' cli/*.[ch] | while IFS= read -r line; do
+strangers=$(grep -nE '#[[:space:]]*include[[:space:]]*"' cli/*.[ch] cli/*/*.[ch] |
+    while IFS= read -r line; do
     name=$(printf '%s\n' "$line" | sed 's/.*"\(.*\)".*/\1/')
     [ "$name" = glint/glint.h ] || [ -e "cli/$name" ] || echo "FAIL includes: $line"
 done)

@@ -5,48 +5,8 @@
 # Ends with "N passed, N failed".
 set -u
 
-[ $# -eq 1 ] || { echo "usage: $0 PATH/TO/glint" >&2; exit 2; }
-glint=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
-python=/usr/bin/python3
-[ -x "$python" ] || python=python3
-dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
-trap 'exit 130' INT TERM
-cd "$dir" || exit 3
+. "$(dirname "$0")/cli.sh"
 
-passed=0
-failed=0
-skipped=0
-pass() { passed=$((passed + 1)); }
-fail() {
-    failed=$((failed + 1))
-    echo "FAIL cli: $*"
-    sed 's/^/  stdout: /' "$dir/out" | head -5
-    sed 's/^/  stderr: /' "$dir/err" | head -5
-}
-check() { # check WHAT COMMAND...: the command must succeed
-    what=$1
-    shift
-    if "$@"; then pass; else fail "$what"; fi
-}
-
-# run STATUS ARGUMENT...: runs glint and checks its exit status; the output is in out and err.
-run() {
-    expected=$1
-    shift
-    "$glint" "$@" >"$dir/out" 2>"$dir/err" </dev/null
-    status=$?
-    if [ $status -eq "$expected" ]; then
-        pass
-    else
-        fail "glint $*: status $status, not $expected"
-    fi
-}
-says() { check "standard error says: $1" grep -qF -e "$1" "$dir/err"; }
-silent() { check "$1: nothing on standard error" test ! -s "$dir/err"; }
-printed() {
-    if [ "$(cat "$dir/out")" = "$1" ]; then pass; else fail "standard output is not: $1"; fi
-}
 # pixels FILE "W H": the size that the PNG's header tells.
 pixels() {
     size=$("$python" -c 'import struct, sys
@@ -227,13 +187,25 @@ run 0 --version
 check "version" grep -Eq '^glint [0-9]+\.[0-9]+\.[0-9]+$' out
 run 0 --help
 silent "help"
-lines=$(wc -l <out)
-check "help fits a screen" test "$lines" -ge 24 -a "$lines" -le 40
-check "help has 80 columns" test -z "$(awk 'length > 80' out)"
+cp out overview
+verbs=$(sed -n 's/^  \([a-z]*\) .*/\1/p' overview | grep -v '^glint$')
+for verb in '' $verbs; do
+    # shellcheck disable=SC2086 # none or one
+    run 0 $verb --help
+    lines=$(wc -l <out)
+    check "help $verb fits a screen" test "$lines" -ge 8 -a "$lines" -le 40
+    check "help $verb has 80 columns" test -z "$(awk 'length > 80' out)"
+    # shellcheck disable=SC2086
+    run 0 $verb --help=man
+    check "man $verb has its parts" test "$(grep -c '^\.SH' out)" -ge 6
+done
+check "render is a verb" grep -q '^  render ' overview
 for form in man markdown; do
     run 0 --help=$form
     check "$form tells of --crop" grep -q crop out
 done
+run 2 rendr a.xml
+says "did you mean 'glint render'?"
 run 2 --help=html
 
 # ---- numbers
@@ -362,9 +334,4 @@ else
     echo "skip cli: this machine lends no terminals"
 fi
 
-if [ $skipped -eq 0 ]; then
-    echo "$passed passed, $failed failed"
-else
-    echo "$passed passed, $failed failed, $skipped skipped"
-fi
-[ $failed -eq 0 ]
+finish

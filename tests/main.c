@@ -24,6 +24,7 @@
     X(mesh) \
     X(ply) \
     X(reader) \
+    X(recipe) \
     X(malformed) \
     X(scan) \
     X(hit) \
@@ -46,7 +47,9 @@
     X(outputs) \
     X(save) \
     X(flight) \
+    X(camera) \
     X(golden) \
+    X(explain) \
     X(tiles) \
     X(api) \
     X(load) \
@@ -54,7 +57,10 @@
     X(exr) \
     X(elements) \
     X(files) \
-    X(triangle)
+    X(triangle) \
+    X(watch) \
+    X(watch_camera) \
+    X(watch_screen)
 /* clang-format on */
 
 #define DECLARE(room) extern const GiTest tests_##room[];

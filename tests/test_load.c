@@ -188,6 +188,53 @@ static void progress_and_cancel(void) {
     free(text);
 }
 
+/* Where objects stand, from streams that arrive in pieces too. */
+static void sources(void) {
+    static const char text[] =
+        "<scene>\n"
+        "  <camera/><image>8 8</image>\n"
+        "  <shader name='red' type='Lambertian'/>\n"
+        "  <surface type='Group'><surface type='Sphere' name='b\xc3\xa4ll'>\n"
+        "    <shader ref='red'/></surface>\n"
+        "  </surface>  <surface type='Box'><shader type='Phong'/></surface>\n"
+        "  <light/><light name='key'><position>1 2 3</position></light>\n"
+        "</scene>\n";
+    for (size_t piece = 0; piece < 3; piece++) {
+        GlintSceneDesc desc = glint_scene_desc_default();
+        desc.keep_sources = true;
+        GlintScene *scene;
+        CHECK_INT(glint_scene_create(&desc, &scene, NULL), GLINT_OK);
+        Stream stream = {text, 0, strlen(text), piece, SIZE_MAX};
+        CHECK_INT(
+            glint_scene_load_stream(scene, read_stream, &stream, "s.xml", NULL, NULL), GLINT_OK);
+        static const struct {
+            GlintObjectKind kind;
+            uint32_t index1;
+            int line, column;
+            const char *name;
+        } places[] = {{GLINT_OBJECT_CAMERA, 1, 2, 3, ""}, {GLINT_OBJECT_SHADER, 1, 3, 3, "red"},
+            {GLINT_OBJECT_SURFACE, 1, 4, 25, "b\xc3\xa4ll"}, {GLINT_OBJECT_SHADER, 2, 6, 35, ""},
+            {GLINT_OBJECT_SURFACE, 2, 6, 15, ""}, {GLINT_OBJECT_LIGHT, 1, 7, 3, ""},
+            {GLINT_OBJECT_LIGHT, 2, 7, 11, "key"}};
+        GlintSource source;
+        for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+            CHECK(glint_scene_source(scene, places[i].kind, places[i].index1, &source));
+            CHECK_INT(source.line, places[i].line);
+            CHECK_INT(source.column, places[i].column);
+            CHECK_TEXT(source.name, places[i].name);
+            CHECK_TEXT(source.path, "s.xml");
+        }
+        CHECK(!glint_scene_source(scene, GLINT_OBJECT_SURFACE, 3, &source));
+        CHECK(!glint_scene_source(scene, GLINT_OBJECT_SHADER, 0, &source));
+        glint_scene_destroy(scene);
+    }
+    GlintScene *scene = new_scene();
+    CHECK_INT(load_text(scene, small_scene, NULL), GLINT_OK);
+    GlintSource source;
+    CHECK(!glint_scene_source(scene, GLINT_OBJECT_SURFACE, 1, &source));
+    glint_scene_destroy(scene);
+}
+
 static void statistics(void) {
     GlintScene *scene = new_scene();
     CHECK_INT(load_text(scene, small_scene, NULL), GLINT_OK);
@@ -215,4 +262,4 @@ static void statistics(void) {
 }
 
 const GiTest tests_load[] = {TEST(load_three_ways), TEST(errors_as_data), TEST(progress_and_cancel),
-    TEST(statistics), TEST_END};
+    TEST(sources), TEST(statistics), TEST_END};

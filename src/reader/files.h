@@ -21,6 +21,18 @@ typedef struct GiFiles {
     GiFileId environment; /* the file of the scene's environment, when it has one */
 } GiFiles;
 
+/* The paths of files, one after the other. All zero is an empty list. */
+typedef struct GiFileNames {
+    GI_ARRAY(char) text; /* each with its zero */
+    GI_ARRAY(size_t) first;
+} GiFileNames;
+
+/* Adds a path unless it is there already. False when memory is short. */
+bool gi_file_names_add(GiFileNames *names, GiMemory *memory, const char *path);
+/* Null behind the last. */
+const char *gi_file_names_at(const GiFileNames *names, size_t index);
+void gi_file_names_reset(GiFileNames *names, GiMemory *memory);
+
 struct GiReader;
 
 void gi_files_reset(GiFiles *files, GiMemory *memory);

@@ -24,6 +24,13 @@ void gi_object_name(GiReader *reader, const GiFrame *frame, GiNamed named) {
     if (!gi_names_set(&reader->names, gi_span(name), named)) gi_reader_out_of_memory(reader);
 }
 
+void gi_object_remember(GiReader *reader, const GiFrame *frame, GlintObjectKind kind) {
+    GiSources *sources = reader->source->sources;
+    if (sources == NULL) return;
+    const char *name = reader->tags.data + frame->name;
+    if (!gi_sources_add(sources, kind, frame->place.offset, name)) gi_reader_out_of_memory(reader);
+}
+
 void gi_object_name_value(GiReader *reader, const GiFrame *frame, GiVec value) {
     if (!gi_reader_is_named(reader, frame)) return;
     uint32_t index = (uint32_t)reader->names.values.count;
@@ -210,6 +217,7 @@ static void finish_camera(GiReader *reader, GiFrame *frame) {
     }
     reader->scene->camera = camera;
     reader->scene->has_camera = true;
+    gi_object_remember(reader, frame, GLINT_OBJECT_CAMERA);
     if (!gi_reader_is_named(reader, frame)) return;
     uint32_t index = (uint32_t)reader->cameras.count;
     if (!gi_array_push(reader->memory, &reader->cameras, camera)) {
@@ -259,6 +267,7 @@ static void finish_light(GiReader *reader, GiFrame *frame) {
         gi_reader_out_of_memory(reader);
         return;
     }
+    gi_object_remember(reader, frame, GLINT_OBJECT_LIGHT);
     gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_LIGHT, .index = (uint32_t)index});
 }
 
@@ -417,6 +426,9 @@ static void finish_surface(GiReader *reader, GiFrame *frame, GiFrame *parent) {
         gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_SURFACE, .broken = true});
         return;
     }
+    if (gi_shape_kind(ref) != GI_SHAPE_GROUP) {
+        gi_object_remember(reader, frame, GLINT_OBJECT_SURFACE);
+    }
     place_shape(reader, parent, ref);
     if (gi_reader_is_named(reader, frame)) {
         gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_SURFACE, .shape = ref});
@@ -460,6 +472,7 @@ void gi_object_refer(GiReader *reader, GiFrame *frame, GiFrame *parent, const Gi
     case GI_KIND_CAMERA:
         reader->scene->camera = reader->cameras.data[copy.index];
         reader->scene->has_camera = true;
+        gi_object_remember(reader, frame, GLINT_OBJECT_CAMERA);
         break;
     case GI_KIND_SURFACE: place_shape(reader, parent, copy.shape); break;
     case GI_KIND_SHADER:
@@ -470,6 +483,7 @@ void gi_object_refer(GiReader *reader, GiFrame *frame, GiFrame *parent, const Gi
             gi_reader_out_of_memory(reader);
             return;
         }
+        gi_object_remember(reader, frame, GLINT_OBJECT_LIGHT);
         break;
     }
     default: {

@@ -2,6 +2,8 @@
  * From XML to the model, in one pass over a stream. */
 #pragma once
 
+#include "reader/files.h"
+#include "reader/source.h"
 #include "scene/scene.h"
 
 typedef struct GiReaderSource {
@@ -13,11 +15,13 @@ typedef struct GiReaderSource {
     const GlintMonitor *monitor;  /* null: none */
     GlintDiagnosticFn diagnostic; /* null: none */
     void *diagnostic_user;
-    GlintDialect dialect; /* AUTO: what the file says or shows */
-    size_t chunk_size;    /* bytes handed to the parser at once; 0: a good size */
-    int thread_count;     /* for loading meshes; 0: one per core */
-    bool without_files;   /* other files are not opened: each counts as found and empty */
-    bool expat_only;      /* the scanner is not used, which must make no difference but in time */
+    GlintDialect dialect;       /* AUTO: what the file says or shows */
+    size_t chunk_size;          /* bytes handed to the parser at once; 0: a good size */
+    int thread_count;           /* for loading meshes; 0: one per core */
+    bool without_files;         /* other files are not opened: each counts as found and empty */
+    GiSources *sources;         /* null; or filled with what is known of the places of objects */
+    GiFileNames *missing_files; /* null; or filled with those that are not found */
+    bool expat_only; /* the scanner is not used, which must make no difference but in time */
 } GiReaderSource;
 
 typedef struct GiReaderResult {

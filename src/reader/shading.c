@@ -94,6 +94,7 @@ void gi_shading_finish_shader(GiReader *reader, GiFrame *frame, GiFrame *parent)
         gi_reader_out_of_memory(reader);
         return;
     }
+    gi_object_remember(reader, frame, GLINT_OBJECT_SHADER);
     gi_shading_give(reader, frame, parent, (uint32_t)index);
     gi_object_name(
         reader, frame, (GiNamed){.kind = (uint8_t)frame->element->kind, .index = (uint32_t)index});

@@ -189,6 +189,8 @@ void gi_object_refer(GiReader *reader, GiFrame *frame, GiFrame *parent, const Gi
 /* Remembers what the frame stands for under its name, when it has one. Where most have none this is
  * asked before, so that nothing is put together for it. */
 void gi_object_name(GiReader *reader, const GiFrame *frame, GiNamed named);
+/* Remembers where an object that has just been added stands, if anybody wants to know. */
+void gi_object_remember(GiReader *reader, const GiFrame *frame, GlintObjectKind kind);
 /* Remembers a value. */
 void gi_object_name_value(GiReader *reader, const GiFrame *frame, GiVec value);
 

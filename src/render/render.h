@@ -22,16 +22,20 @@ typedef enum GiTechnique {
     GI_TECHNIQUE_BSDF
 } GiTechnique;
 
+typedef struct GiRecord GiRecord; /* render/record.h */
+
 /* What to draw, and where to: crop_width * crop_height values or triples, top row first; any may be
  * null. */
 typedef struct GiRenderTarget {
-    int samples; /* per pixel, at least 1 */
+    int samples;        /* per pixel, at least 1 */
+    const GiView *view; /* null: the scene's own */
     float *color, *depth, *normal, *albedo;
     uint32_t *surface;
     GiPng *png; /* of crop_width * crop_height pixels; what is ready is sent while others draw */
     int light;  /* as in GlintRenderDesc */
     GlintSampling sampling;
     GiTechnique technique;
+    GiRecord *record; /* null; or what happens is noted, and the area is one pixel */
 } GiRenderTarget;
 
 /* No tile is smaller, but at the border: a picture has no use for more workers than it has squares

@@ -48,6 +48,7 @@ typedef struct GiFlight {
     double t_min, weight;
     double density;        /* with which a bsdf drew it; 0: it is a mirror's or refracted */
     uint32_t pixel, level; /* rays of the camera: 1 */
+    uint32_t ray;          /* its number in the record, or its parent's before it has one */
     bool inside;           /* in glass */
     bool probe;            /* looks for lights only */
 } GiFlight;
@@ -80,6 +81,16 @@ struct GiTileScratch {
     bool out_of_memory;
 };
 
+/* What a light that is not a point sends to a surface: one ray. */
+typedef struct GiBeam {
+    GiVec direction;     /* toward the light, unit */
+    GiVec light;         /* E of the direction, or radiance over density */
+    double t_min, t_max; /* of the shadow ray */
+    double distance;     /* to the light */
+    double density;      /* per solid angle; 0: the bsdf cannot find this light */
+    bool radiance;       /* light of a large source, not of a point */
+} GiBeam;
+
 /* What all stages need to know. */
 typedef struct GiStage {
     const GiWorld *world;
@@ -89,6 +100,9 @@ typedef struct GiStage {
     const GiRenderTarget *target;
     uint32_t x, y, sample; /* the tile's corner in the whole picture; number of the sample */
 } GiStage;
+
+/* Whether the pixel is drawn to be explained (render/record.h). */
+static inline bool gi_stage_records(const GiStage *stage) { return stage->target->record != NULL; }
 
 /* Whether to stop; asks the caller now and then. */
 bool gi_stage_stopped(const GiStage *stage);
@@ -138,6 +152,11 @@ static inline double gi_stage_radiance(const GiShading *at) {
     return path || at->rules->radiance_over_pi ? gi_bsdf_radiometric(at) : 1;
 }
 
+/* The camera that is drawn with. */
+static inline const GiView *gi_stage_view(const GiStage *stage) {
+    return stage->target->view != NULL ? stage->target->view : &stage->world->view;
+}
+
 /* ---- tile.c */
 
 /* The tile's pixels that lie in the picture, or in the part of it that is drawn. */
@@ -183,7 +202,7 @@ bool gi_lights_gloss(const GiRules *rules, const GiShader *shader, GiGloss *glos
 
 /* ---- flight.c */
 
-/* Notes a ray to be followed. */
+/* Keeps a ray to be followed. */
 void gi_flight_add(const GiStage *stage, const GiFlight *flight);
 
 /* Follows the flights until none is left. */

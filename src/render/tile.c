@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "render/stage.h"
+#include "render/record.h"
 
 #include <string.h>
 
@@ -90,6 +90,7 @@ static inline int minimum(int a, int b) { return a < b ? a : b; }
 /* Fills the bundle with the rays of a block's pixels, packet by packet. */
 static void set_rays(const GiStage *stage, const GiTileExtent *extent, int block_x, int block_y) {
     const GiWorld *world = stage->world;
+    const GiView *view = gi_stage_view(stage);
     GiTileScratch *scratch = stage->scratch;
     GiBundle *bundle = &scratch->bundle;
     int count = 0;
@@ -107,11 +108,12 @@ static void set_rays(const GiStage *stage, const GiTileExtent *extent, int block
         }
     }
     bundle->count = count;
-    bundle->apex = world->view.eye;
-    bundle->side = world->view.across;
-    world->kernel->view(&world->view, scratch->a, scratch->b, bundle);
+    bundle->apex = view->eye;
+    bundle->side = view->across;
+    world->kernel->view(view, scratch->a, scratch->b, bundle);
+    double begin = gi_world_eye_error(world, view->eye);
     for (int i = 0; i < count; i++) {
-        bundle->t_min[i] = world->eye_error;
+        bundle->t_min[i] = begin;
         bundle->t_max[i] = INFINITY;
         bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
     }
@@ -123,7 +125,7 @@ int gi_tile_trace_block(
     GiBundle *bundle = &stage->scratch->bundle;
     if (gi_stage_stopped(stage)) return 0;
     set_rays(stage, extent, block_x, block_y);
-    if (world->view.parallel) {
+    if (gi_stage_view(stage)->parallel) {
         trace_apart(stage);
     } else {
         world->kernel->bundle_closest(&world->trace, bundle);
@@ -236,13 +238,16 @@ bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
     if (scratch->seen != NULL) {
         memset(scratch->seen, 0, (size_t)(extent.height * STRIDE) * sizeof *scratch->seen);
     }
-    for (int sample = 0; sample < n * n; sample++) {
+    int first = 0, end = n * n;
+    if (gi_stage_records(&stage)) gi_record_choose_samples(target->record, &first, &end);
+    for (int sample = first; sample < end; sample++) {
         stage.sample = (uint32_t)sample;
         draw_sample(&stage, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n);
         if (stopped(control)) return false;
-        if (n > 1) add_sample(&extent, scratch, sample == 0);
+        if (n > 1) add_sample(&extent, scratch, sample == first);
+        if (gi_stage_records(&stage)) gi_record_end(&stage, n * n);
     }
-    if (store(&stage, area, &extent, x, y, n * n)) return true;
+    if (first >= end || store(&stage, area, &extent, x, y, n * n)) return true;
     scratch->out_of_memory = true;
     atomic_store(control->stop, true);
     return false;

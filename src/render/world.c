@@ -271,10 +271,12 @@ GlintStatus gi_world_commit(GiWorld *world, GiScene *scene, const GiKernel *kern
     point_shapes(world, scene);
     world->trace = (GiTrace){&world->store.tree, &world->shapes};
     world->view = gi_view_of(&scene->camera);
-    /* The surface is not known yet, so the scene's size stands for its own. */
-    world->eye_error =
-        (gi_largest(world->view.eye) + 1 / world->store.tree.scale) * GI_SURFACE_ERROR;
     return GLINT_OK;
+}
+
+double gi_world_eye_error(const GiWorld *world, GiVec eye) {
+    /* The surface is not known yet, so the scene's size stands for its own. */
+    return (gi_largest(eye) + 1 / world->store.tree.scale) * GI_SURFACE_ERROR;
 }
 
 void gi_world_reset(GiWorld *world, GiMemory *memory) {

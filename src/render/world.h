@@ -19,8 +19,7 @@ typedef struct GiWorld {
     GiTreeStore *inner; /* trees of what instances share */
     size_t inner_count;
     GiTrace trace;
-    GiView view;
-    double eye_error; /* camera rays begin here, past a surface that the eye lies on */
+    GiView view;                                                /* of the scene's own camera */
     size_t primitive_count, node_count, leaf_count, tree_bytes; /* of all trees */
     GiSpread spread;    /* its lists are empty again once the trees stand */
     uint32_t *original; /* of triangles, see GiTriangles */
@@ -37,4 +36,7 @@ typedef struct GiWorld {
  * zeroed first; on failure it can be reset. Errors: SCENE, MEMORY, CANCELLED. */
 GlintStatus gi_world_commit(GiWorld *world, GiScene *scene, const GiKernel *kernel, GiPool *pool,
     const GlintMonitor *monitor, GlintError *error);
+/* Where camera rays begin, past a surface that the eye lies on. */
+double gi_world_eye_error(const GiWorld *world, GiVec eye);
+
 void gi_world_reset(GiWorld *world, GiMemory *memory);

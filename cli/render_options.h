@@ -1,19 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * The command line as a struct. */
+ * The options of `glint render` as a struct. */
 #pragma once
 
 #include "glint/glint.h"
 
-#include "status.h"
-
-typedef enum CliAction {
-    CLI_ACTION_RENDER,
-    CLI_ACTION_HELP,
-    CLI_ACTION_VERSION,
-    CLI_ACTION_LIST_ISA
-} CliAction;
-
-typedef enum CliHelpFormat { CLI_HELP_SCREEN, CLI_HELP_MAN, CLI_HELP_MARKDOWN } CliHelpFormat;
+#include "verb.h"
 
 typedef enum CliStatsFormat { CLI_STATS_NONE, CLI_STATS_TEXT, CLI_STATS_JSON } CliStatsFormat;
 
@@ -26,9 +17,7 @@ typedef enum CliLayerKind {
     CLI_LAYER_LIGHTS = 1 << 4
 } CliLayerKind;
 
-typedef struct CliOptions {
-    CliAction action;
-    CliHelpFormat help;
+typedef struct CliRenderOptions {
     const char *output; /* null: beside the scene */
     GlintDialect dialect;
     int thread_count;                            /* 0: one per core */
@@ -38,11 +27,9 @@ typedef struct CliOptions {
     int samples;                                 /* 0: the scene's */
     unsigned layers;                             /* a set of CliLayerKind */
     CliStatsFormat stats;
-    bool quiet;
-    char **scenes; /* as given; points into argv */
-    int scene_count;
-} CliOptions;
+    bool quiet, list_isa;
+    bool embed; /* the scene and its files into the PNG */
+} CliRenderOptions;
 
-/* Reads the arguments into *options. argv is reordered, and must live as long as *options. When
- * something is wrong it says so on standard error and returns CLI_USAGE. */
-CliStatus cli_options_parse(int argc, char **argv, CliOptions *options);
+enum { CLI_RENDER_OPTION_COUNT = 12 };
+extern const CliOption cli_render_option_table[CLI_RENDER_OPTION_COUNT];
