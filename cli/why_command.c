@@ -169,6 +169,7 @@ static CliStatus check_place(CliWhy *why, const WhyOptions *options) {
     }
     memcpy(why->region, options->region, sizeof why->region);
     why->step = options->step;
+    why->dialect = options->dialect;
     why->sample = options->sample > 0 ? options->sample - 1 : 0;
     return CLI_OK;
 }
