@@ -273,9 +273,7 @@ void glint_scene_stats(const GlintScene *scene, GlintStats *stats) {
 
 GlintRenderDesc glint_render_desc_default(void) { return (GlintRenderDesc){.cookie = GI_COOKIE}; }
 
-/* What desc asks for, and the workers for it; color and png are left to the caller. The target
- * points at *view. */
-static GlintStatus plan_render(GlintScene *scene, const GlintRenderDesc *desc, GiRenderArea *area,
+GlintStatus gi_scene_plan_render(GlintScene *scene, const GlintRenderDesc *desc, GiRenderArea *area,
     GiRenderTarget *target, GiView *view, GlintError *error) {
     if (scene == NULL || desc == NULL) return ARGUMENT(error, "scene or desc is null");
     if (desc->cookie != GI_COOKIE) return ARGUMENT(error, NO_DEFAULT("glint_render_desc_default"));
@@ -346,7 +344,7 @@ GlintStatus glint_render(
     GiRenderArea area;
     GiRenderTarget target;
     GiView view;
-    GlintStatus status = plan_render(scene, desc, &area, &target, &view, error);
+    GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, &view, error);
     if (status != GLINT_OK) return status;
     target.color = pixels;
     return render(scene, &area, desc->monitor, &target, error);
@@ -414,7 +412,7 @@ GlintStatus glint_render_save(GlintScene *scene, const GlintRenderDesc *desc, co
     GiRenderArea area;
     GiRenderTarget target;
     GiView view;
-    GlintStatus status = plan_render(scene, desc, &area, &target, &view, error);
+    GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, &view, error);
     if (status == GLINT_OK) status = gi_image_check_desc(save, error);
     if (status == GLINT_OK) status = glint_image_check_path(path, error);
     if (status != GLINT_OK) return status;

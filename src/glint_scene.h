@@ -27,6 +27,11 @@ struct GlintScene {
 /* The camera that a desc describes. Errors: ARGUMENT. */
 GlintStatus gi_glint_camera(const GlintCameraDesc *desc, GiCamera *camera, GlintError *error);
 
+/* What desc asks for, and the workers for it; color and png are left to the caller. The target
+ * points at *view. Errors: those of glint_render. */
+GlintStatus gi_scene_plan_render(GlintScene *scene, const GlintRenderDesc *desc, GiRenderArea *area,
+    GiRenderTarget *target, GiView *view, GlintError *error);
+
 #define ARGUMENT(error, ...) gi_error_set((error), GLINT_ERROR_ARGUMENT, __VA_ARGS__)
 
 static inline bool is_finite3(const double v[3]) {

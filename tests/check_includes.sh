@@ -29,6 +29,7 @@ reader: scene mesh shape light texture port
 render: sample light texture shade camera kernel accel image sched scene shape port
 glint.c: $all glint_scene.h
 glint_build.c: $all glint_scene.h
+glint_explain.c: $all glint_scene.h
 glint_recipe.c: $all glint_scene.h
 glint_scene.h: $all
 "

@@ -49,6 +49,7 @@
     X(flight) \
     X(camera) \
     X(golden) \
+    X(explain) \
     X(tiles) \
     X(api) \
     X(load) \

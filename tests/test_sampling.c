@@ -217,7 +217,7 @@ static void same_bits_everywhere(void) {
         GiArrival arrival = {.level = 1, .weight = 1};
         GiScatter scatter;
         shader.type = GLINT_SHADER_GLASS;
-        gi_bsdf_scatter(&at, &arrival, &scatter);
+        gi_bsdf_scatter(&at, &arrival, &scatter, NULL);
         for (int j = 0; j < scatter.count; j++) {
             mix_vec(&hash, scatter.branch[j].direction);
             mix_vec(&hash, scatter.branch[j].factor);

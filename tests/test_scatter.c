@@ -18,7 +18,7 @@ static GiScatter scatter_of(
     const GiShader *shader, GlintDialect year, GiVec v, const GiArrival *arrival) {
     GiShading at = shading_of(shader, year, v);
     GiScatter scatter;
-    gi_bsdf_scatter(&at, arrival, &scatter);
+    gi_bsdf_scatter(&at, arrival, &scatter, NULL);
     return scatter;
 }
 
@@ -162,7 +162,7 @@ static GiScatter scatter_of_stack(
     GiShading at = shading_of(&stack->shaders[layer], year, v);
     GiScatter scatter;
     at.scene = &stack->scene;
-    gi_bsdf_scatter(&at, arrival, &scatter);
+    gi_bsdf_scatter(&at, arrival, &scatter, NULL);
     return scatter;
 }
 

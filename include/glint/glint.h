@@ -540,6 +540,207 @@ GLINT_API bool glint_trace(const GlintScene *scene, const GlintRay *ray, GlintHi
 /* Whether anything is hit. The same rules. */
 GLINT_API bool glint_occluded(const GlintScene *scene, const GlintRay *ray);
 
+/* ---------------------------------------------------------------- explaining pixels */
+
+/* Why a pixel has its colour: every ray that was traced for it, what it met, what each light did
+ * there, and every number that was added, in the order in which it was added. All this is noted
+ * while the pixel is drawn, by the code that draws pictures.
+ *
+ * A sample of a pixel is explained by six arrays whose elements refer to each other by index
+ * (GLINT_NONE: to none). Rays form a tree: the camera's is rays[0], and a parent stands before
+ * its children. Vectors are in world space, colours linear. */
+#define GLINT_NONE UINT32_MAX
+
+typedef enum GlintRayKind {
+    GLINT_RAY_CAMERA,
+    GLINT_RAY_MIRRORED,
+    GLINT_RAY_REFRACTED,
+    GLINT_RAY_SCATTERED, /* in a direction that the shader drew: a path goes on */
+    GLINT_RAY_PROBE      /* the same, but it looks for lights and the environment only */
+} GlintRayKind;
+
+typedef enum GlintRayEnd {
+    GLINT_RAY_END_NOTHING, /* it left the scene */
+    GLINT_RAY_END_SURFACE,
+    GLINT_RAY_END_LIGHT /* a rectangle light of a dialect where these can be seen */
+} GlintRayEnd;
+
+typedef struct GlintExplainRay {
+    GlintRayKind kind;
+    GlintRayEnd end;
+    uint32_t parent; /* the ray at whose end this one begins */
+    uint32_t level;  /* camera rays: 1 */
+    double origin[3];
+    double direction[3]; /* unit, but for rounding */
+    double t_min;        /* met only behind this */
+    double factor[3];    /* of what it brings */
+    double weight;       /* of the ray tree, for the years that drop what weighs too little */
+    double density;      /* per solid angle, of the drawing of its direction; 0: not drawn */
+    bool inside;         /* it runs in glass (years that count) */
+
+    /* Of what it met, unless that is nothing. */
+    double t; /* distance */
+    double point[3];
+    double normal[3];           /* unit, outward: the one that is shaded with */
+    double geometric_normal[3]; /* of the surface itself */
+    double n_dot_v;             /* v: back along the ray */
+    GlintSurfaceId surface;     /* zero: a light */
+    GlintSurfaceType surface_type;
+    uint32_t triangle; /* of a mesh: in the order of its file, from 0; else GLINT_NONE */
+    uint32_t light;    /* met: the k-th of the scene, from 1; 0: none */
+    GlintShaderId shader;
+
+    /* Of the light that the surface reflects. Glass reflects none, glazing leaves it to what is
+     * under it. */
+    bool lit; /* lights are looked at; the rest counts only then */
+    GlintShaderId local_shader;
+    double local_factor[3];  /* of what lights add, in the sample */
+    double diffuse_color[3]; /* textures included */
+} GlintExplainRay;
+
+/* What became of a ray that might go on from a surface. */
+typedef enum GlintBranchFate {
+    GLINT_BRANCH_FOLLOWED,   /* it is rays[child] */
+    GLINT_BRANCH_NOTHING,    /* it would add nothing, or no direction was drawn */
+    GLINT_BRANCH_TOO_LIGHT,  /* its weight is below the year's limit */
+    GLINT_BRANCH_TOO_DEEP,   /* behind the deepest level */
+    GLINT_BRANCH_NOT_CHOSEN, /* a path goes on in one direction only, drawn by chance */
+    GLINT_BRANCH_ENDED,      /* the path was ended by chance (Russian roulette) */
+    GLINT_BRANCH_NO_TREE     /* the integrator follows none */
+} GlintBranchFate;
+
+typedef struct GlintExplainBranch {
+    GlintRayKind kind;
+    GlintBranchFate fate;
+    uint32_t ray;     /* at whose end it begins */
+    uint32_t layer;   /* that sends it; GLINT_NONE: the shader under all layers drew it */
+    uint32_t child;   /* the ray, when it is followed */
+    double factor[3]; /* relative to the ray's */
+    double weight;    /* as that of the ray it would be */
+    double chance;    /* with which a path goes on here; 1 in a ray tree */
+    double survival;  /* ... and with which it is not ended by Russian roulette. The child's factor
+                         is this factor times the ray's, over both chances; that of a drawn
+                         direction times what the shader reflects from there, over its density */
+} GlintExplainBranch;
+
+/* A glazing, glass, or the mirror coefficient of another shader. */
+typedef struct GlintExplainLayer {
+    uint32_t ray; /* that met it */
+    GlintShaderId shader;
+    bool inside;          /* glass: the ray runs in it */
+    bool behind;          /* seen from behind, where a layer does nothing or is black */
+    bool total;           /* glass: total internal reflection */
+    double cosine;        /* n.v, n on the side of v in glass */
+    double cosine_behind; /* of the refracted ray; 0 where there is none */
+    double ratio;         /* glass: index before the boundary over that behind; else 0 */
+    double reflectance;   /* that Fresnel's or Schlick's formula gives; of a mirror coefficient, a
+                             colour, the largest component */
+} GlintExplainLayer;
+
+/* What became of a light at a point. */
+typedef enum GlintLightFate {
+    GLINT_LIGHT_ARRIVES,    /* nothing is in the way */
+    GLINT_LIGHT_BLOCKED,    /* a surface is in the way */
+    GLINT_LIGHT_EVERYWHERE, /* ambient and its like: nothing can be in the way */
+    /* The rest adds nothing, and no shadow ray is traced. */
+    GLINT_LIGHT_BEHIND,      /* n.l is not positive */
+    GLINT_LIGHT_UNSEEN_SIDE, /* the surface is seen from behind and black there */
+    GLINT_LIGHT_OFF,         /* the light itself has no strength here */
+    GLINT_LIGHT_TURNED_AWAY, /* a rectangle light shines to its other side */
+    GLINT_LIGHT_ON_SURFACE,  /* the light is at the point itself */
+    GLINT_LIGHT_ABSORBED     /* the surface reflects nothing of it toward the viewer */
+} GlintLightFate;
+
+/* term = strength * reflected * share, and the sample gets local_factor of the ray times this. */
+typedef struct GlintExplainLight {
+    GlintLightFate fate;
+    uint32_t ray;   /* at whose end */
+    uint32_t light; /* the k-th of the scene, from 1; 0: the environment */
+    /* All but the term is 0 where nothing can be in the way. */
+    double direction[3];                   /* l: unit, toward the light or the point drawn on it */
+    double distance;                       /* INFINITY: directional light, environment */
+    double n_dot_l, n_dot_h;               /* h: half way between l and v */
+    double falloff;                        /* of a point light: 1 / distance^2, or 1; else 1 */
+    double strength[3];                    /* E: intensity * falloff, or radiance over density */
+    double diffuse[3], highlight[3];       /* parts of the shader's formula, n.l included */
+    double reflected[3];                   /* their sum */
+    double fresnel, distribution, masking; /* F, D, G of microfacets; 0 elsewhere */
+    double density;                        /* with which a large light drew l; 0: not drawn */
+    double share;                          /* of a large light: the weight beside other ways to find
+                                              it, times 1/pi where the year needs it; else 1 */
+    double term[3];
+    double shadow_begin, shadow_end; /* distances between which the shadow ray looks; both 0: there
+                                        was none */
+    /* What is in the way, nearest first; of GLINT_LIGHT_BLOCKED. */
+    GlintSurfaceId blocker; /* zero: a rectangle light, blocker_light */
+    GlintSurfaceType blocker_type;
+    uint32_t blocker_triangle, blocker_light;
+    double blocker_distance;
+    double blocker_point[3];
+    uint32_t addition; /* what was added; GLINT_NONE: nothing */
+} GlintExplainLight;
+
+/* Something that was added to a sample. sum is the sample's colour after it. */
+typedef struct GlintExplainAddition {
+    uint32_t ray;
+    uint32_t light; /* index of the GlintExplainLight; GLINT_NONE: what the ray's end shows by
+                       itself, which is background, a light that is seen, or RGBNormals */
+    double amount[3];
+    double sum[3];
+} GlintExplainAddition;
+
+typedef struct GlintExplainSample {
+    int x, y;              /* pixel, from the top left */
+    int sample, samples;   /* number from 0; how many the pixel has */
+    double film_x, film_y; /* the place in the pixel: 0 to 1 from its lower left corner */
+    const GlintExplainRay *rays;
+    const GlintExplainLayer *layers;
+    const GlintExplainBranch *branches;
+    const GlintExplainLight *lights;
+    const GlintExplainAddition *additions;
+    size_t ray_count, layer_count, branch_count, light_count, addition_count;
+    double color[3]; /* the sum of all additions */
+    double sum[3];   /* of the samples so far, with this one */
+} GlintExplainSample;
+
+typedef struct GlintExplainPixel {
+    int x, y, samples;
+    double sum[3];   /* of all samples */
+    double exposure; /* sum / samples * exposure, rounded to float, is the linear colour */
+    float color[3];  /* what glint_render gives, to the last bit */
+    uint8_t rgb[3];  /* the same with gamma 2.2 in 8 bits, as in a PNG */
+} GlintExplainPixel;
+
+/* Each function may be null. What is pointed to lives until it returns. They are called on the
+ * caller's thread: sample for each sample of a pixel in order, then pixel. */
+typedef struct GlintExplainSink {
+    void (*sample)(void *user, const GlintExplainSample *sample);
+    void (*pixel)(void *user, const GlintExplainPixel *pixel);
+    void *user;
+    int only_sample; /* 0: all; k > 0: only the k-th of each pixel is drawn, whose sum is then its
+                        own colour, and pixel is not called. A pixel has fewer: none */
+} GlintExplainSink;
+
+/* Explains the pixels of the crop, row by row from the top left. desc is that of glint_render; its
+ * depth, normal, albedo and surface are left alone. One call at a time per scene, and none while
+ * it is drawn. The work of a pixel is about that of drawing it. Errors: ARGUMENT, MEMORY,
+ * CANCELLED. */
+GLINT_API GlintStatus glint_explain(GlintScene *scene, const GlintRenderDesc *desc,
+    const GlintExplainSink *sink, GlintError *error);
+
+/* What a shader, or the k-th light from 1, of the scene is: a desc as glint_scene_add_... takes it.
+ * After commit a shader without a diffuse colour has the one that its year gives it. False: there
+ * is none. */
+GLINT_API bool glint_scene_shader(
+    const GlintScene *scene, GlintShaderId id, GlintShaderDesc *shader);
+GLINT_API bool glint_scene_light(const GlintScene *scene, uint32_t light, GlintLightDesc *desc);
+
+/* The linear colour of a ray that meets nothing, where there is no environment, and whether there
+ * is one. */
+GLINT_API bool glint_scene_background(const GlintScene *scene, double back_color[3]);
+
+/* ---------------------------------------------------------------- statistics */
+
 /* What the phases took and found so far. Seconds are wall time; counts are of the last render. */
 typedef struct GlintStats {
     double read_seconds, build_seconds, trace_seconds;

@@ -6,13 +6,15 @@
  * The rays of a pixel stand side by side. A chunk holds all of a pixel's rays of its level, or, if
  * these are more than a chunk holds, that many, and in the last one the rest. So a pixel's light is
  * summed up in the same order whatever pixels it shares the tile with. */
-#include "render/stage.h"
+#include "render/record.h"
 
 #include <string.h>
 
 void gi_flight_add(const GiStage *stage, const GiFlight *flight) {
     GiTileScratch *scratch = stage->scratch;
-    if (!gi_array_push(stage->world->scene->memory, &scratch->flights, *flight)) {
+    GiFlight own = *flight;
+    if (gi_stage_records(stage)) own.ray = gi_record_flight(stage, flight);
+    if (!gi_array_push(stage->world->scene->memory, &scratch->flights, own)) {
         scratch->out_of_memory = true;
         atomic_store(stage->control->stop, true);
     }

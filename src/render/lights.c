@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "render/stage.h"
+#include "render/record.h"
 #include "shade/shade.h"
 
 /* What arrives at point i. */
@@ -106,9 +106,17 @@ static void add_lit(const GiStage *stage) {
     }
 }
 
-static void add_point_light(const GiStage *stage, const GiLight *light) {
+static void trace_and_add(const GiStage *stage, const GiLight *light) {
+    GiTileScratch *scratch = stage->scratch;
+    gi_lights_trace(stage, light->position);
+    stage->counts->shadow_rays += (uint64_t)scratch->lit.count;
+    if (!gi_stage_stopped(stage)) add_lit(stage);
+}
+
+static void add_point_light(const GiStage *stage, size_t index) {
     GiTileScratch *scratch = stage->scratch;
     const GiWorld *world = stage->world;
+    const GiLight *light = &world->scene->lights.data[index];
     const GiPointLight point = {
         light->position, light->intensity, gi_shade_light_falls(light, world->rules)};
     scratch->lit.count = 0;
@@ -122,22 +130,11 @@ static void add_point_light(const GiStage *stage, const GiLight *light) {
             light_segment(stage, light, segment);
         }
     }
-    if (scratch->lit.count == 0) return;
-    gi_lights_trace(stage, light->position);
-    stage->counts->shadow_rays += (uint64_t)scratch->lit.count;
-    if (!gi_stage_stopped(stage)) add_lit(stage);
+    if (scratch->lit.count > 0) trace_and_add(stage, light);
+    if (gi_stage_records(stage)) gi_record_point_light(stage, index);
 }
 
 /* ---------------------------------------------------------------- all other lights */
-
-/* What a light that is not a point sends to a surface: one ray. */
-typedef struct Beam {
-    GiVec direction;     /* toward the light, unit */
-    GiVec light;         /* E of the direction, or radiance over density */
-    double t_min, t_max; /* of the shadow ray */
-    double density;      /* per solid angle; 0: the bsdf cannot find this light */
-    bool radiance;       /* light of a large source, not of a point */
-} Beam;
 
 /* Where shadow rays begin: a distance. */
 static double away_of(const GiStage *stage, int i) {
@@ -161,11 +158,13 @@ static void flush_beams(const GiStage *stage, BeamBatch *batch) {
     stage->counts->shadow_rays += (uint64_t)batch->count;
     for (int k = 0; k < batch->count; k++) {
         if (!blocked[k]) add_point(stage, batch->point[k], batch->light[k]);
+        if (gi_stage_records(stage)) gi_record_beam_traced(stage, &batch->ray[k], blocked[k]);
     }
     batch->count = 0;
 }
 
-static void add_beam(const GiStage *stage, int i, const Beam *beam, BeamBatch *batch) {
+static void add_beam(
+    const GiStage *stage, int light_index, int i, const GiBeam *beam, BeamBatch *batch) {
     GiShading at = gi_surface_shading(stage, i);
     GiVec value = gi_bsdf_evaluate(&at, beam->direction);
     double factor = beam->radiance ? gi_stage_radiance(&at) : 1;
@@ -174,6 +173,7 @@ static void add_beam(const GiStage *stage, int i, const Beam *beam, BeamBatch *b
             stage, GI_TECHNIQUE_LIGHT, beam->density, gi_bsdf_density(&at, beam->direction));
     }
     GiVec light = gi_scale(gi_multiply(beam->light, value), factor);
+    if (gi_stage_records(stage)) gi_record_beam(stage, light_index, i, beam, factor, light);
     if (gi_vec_is_zero(light)) return;
     const GiPoints *points = &stage->scratch->points;
     int k = batch->count++;
@@ -191,16 +191,17 @@ static void draw_pair(const GiStage *stage, int i, uint32_t purpose, double u[2]
     gi_sample_2d(&sampler, gi_stage_dimension(scratch->spots[i].level, purpose), u);
 }
 
-static bool directional_beam(const GiStage *stage, const GiLight *light, int i, Beam *beam) {
-    *beam = (Beam){.direction = gi_normalize(light->direction),
+static bool directional_beam(const GiStage *stage, const GiLight *light, int i, GiBeam *beam) {
+    *beam = (GiBeam){.direction = gi_normalize(light->direction),
         .light = light->intensity,
         .t_min = away_of(stage, i),
-        .t_max = INFINITY};
+        .t_max = INFINITY,
+        .distance = INFINITY};
     return true;
 }
 
 /* One point of the rectangle, drawn anew for every point of a surface. */
-static bool rectangle_beam(const GiStage *stage, size_t index, int i, Beam *beam) {
+static bool rectangle_beam(const GiStage *stage, size_t index, int i, GiBeam *beam) {
     const GiWorld *world = stage->world;
     const GiLightRectangle *rectangle = &world->lights.data[index];
     GiVec from = point_at(&stage->scratch->points, i), to;
@@ -210,35 +211,40 @@ static bool rectangle_beam(const GiStage *stage, size_t index, int i, Beam *beam
     if (!(factor > 0)) return false;
     GiVec offset = gi_sub(to, from);
     double distance = gi_length(offset);
-    *beam = (Beam){.direction = gi_scale(offset, 1 / distance),
+    *beam = (GiBeam){.direction = gi_scale(offset, 1 / distance),
         .light = gi_scale(world->scene->lights.data[index].intensity, factor),
         .t_min = away_of(stage, i),
         /* Not as far as the rectangle itself, which may be a surface. */
         .t_max = distance - (gi_largest(to) + distance) * GI_SURFACE_ERROR,
+        .distance = distance,
         .density = world->rules->area_light_visible ? 1 / factor : 0,
         .radiance = true};
     return true;
 }
 
-static bool sky_beam(const GiStage *stage, int i, Beam *beam) {
+static bool sky_beam(const GiStage *stage, int i, GiBeam *beam) {
     double u[2];
     GiVec direction, radiance;
     draw_pair(stage, i, GI_PURPOSE_SKY, u);
     double density = gi_environment_sample(&stage->world->sky, u, &direction, &radiance);
     if (!(density > 0)) return false;
-    *beam = (Beam){.direction = direction,
+    *beam = (GiBeam){.direction = direction,
         .light = gi_scale(radiance, 1 / density),
         .t_min = away_of(stage, i),
         .t_max = INFINITY,
+        .distance = INFINITY,
         .density = density,
         .radiance = true};
     return true;
 }
 
-static void add_ambient(const GiStage *stage, const GiLight *light) {
+static void add_ambient(const GiStage *stage, size_t index) {
+    const GiLight *light = &stage->world->scene->lights.data[index];
     for (int i = 0; i < stage->scratch->points.count; i++) {
         GiShading at = gi_surface_shading(stage, i);
-        add_point(stage, i, gi_shade_ambient(&at, light));
+        GiVec adds = gi_shade_ambient(&at, light);
+        add_point(stage, i, adds);
+        if (gi_stage_records(stage)) gi_record_ambient(stage, index, i, adds);
     }
 }
 
@@ -249,10 +255,14 @@ static void add_beams(const GiStage *stage, size_t index) {
     batch.count = 0;
     for (int i = 0; i < stage->scratch->points.count; i++) {
         if (i % 16 == 0 && gi_stage_stopped(stage)) return;
-        Beam beam;
+        GiBeam beam;
         bool any = directional ? directional_beam(stage, light, i, &beam)
                                : rectangle_beam(stage, index, i, &beam);
-        if (any) add_beam(stage, i, &beam, &batch);
+        if (any) {
+            add_beam(stage, (int)index, i, &beam, &batch);
+        } else if (gi_stage_records(stage)) {
+            gi_record_no_beam(stage, (int)index, i);
+        }
     }
     flush_beams(stage, &batch);
 }
@@ -262,8 +272,8 @@ static void add_sky(const GiStage *stage) {
     batch.count = 0;
     for (int i = 0; i < stage->scratch->points.count; i++) {
         if (i % 16 == 0 && gi_stage_stopped(stage)) return;
-        Beam beam;
-        if (sky_beam(stage, i, &beam)) add_beam(stage, i, &beam, &batch);
+        GiBeam beam;
+        if (sky_beam(stage, i, &beam)) add_beam(stage, -1, i, &beam, &batch);
     }
     flush_beams(stage, &batch);
 }
@@ -272,14 +282,14 @@ static void add_light(const GiStage *stage, size_t index) {
     const GiScene *scene = stage->world->scene;
     const GiLight *light = &scene->lights.data[index];
     switch (light->type) {
-    case GLINT_LIGHT_POINT: add_point_light(stage, light); break;
+    case GLINT_LIGHT_POINT: add_point_light(stage, index); break;
     case GLINT_LIGHT_RECTANGLE:
         if (scene->integrator != GLINT_INTEGRATOR_POINT_LIGHT) add_beams(stage, index);
         break;
     case GLINT_LIGHT_DIRECTIONAL: add_beams(stage, index); break;
     case GLINT_LIGHT_AMBIENT:
     case GLINT_LIGHT_CONSTANT:
-    case GLINT_LIGHT_NORMAL: add_ambient(stage, light); break;
+    case GLINT_LIGHT_NORMAL: add_ambient(stage, index); break;
     }
 }
 
@@ -300,4 +310,5 @@ void gi_lights_add(const GiStage *stage) {
     if (stage->world->sky_lights && gi_stage_draws(stage, -1)) add_sky(stage);
     if (!stage->scratch->shared) show_points(stage->scratch);
     stage->scratch->points.count = stage->scratch->segment_count = 0;
+    if (gi_stage_records(stage)) stage->target->record->points.count = 0;
 }

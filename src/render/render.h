@@ -22,6 +22,8 @@ typedef enum GiTechnique {
     GI_TECHNIQUE_BSDF
 } GiTechnique;
 
+typedef struct GiRecord GiRecord; /* render/record.h */
+
 /* What to draw, and where to: crop_width * crop_height values or triples, top row first; any may be
  * null. */
 typedef struct GiRenderTarget {
@@ -33,6 +35,7 @@ typedef struct GiRenderTarget {
     int light;  /* as in GlintRenderDesc */
     GlintSampling sampling;
     GiTechnique technique;
+    GiRecord *record; /* null; or what happens is noted, and the area is one pixel */
 } GiRenderTarget;
 
 /* No tile is smaller, but at the border: a picture has no use for more workers than it has squares

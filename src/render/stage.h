@@ -48,6 +48,7 @@ typedef struct GiFlight {
     double t_min, weight;
     double density;        /* with which a bsdf drew it; 0: it is a mirror's or refracted */
     uint32_t pixel, level; /* rays of the camera: 1 */
+    uint32_t ray;          /* its number in the record, or its parent's before it has one */
     bool inside;           /* in glass */
     bool probe;            /* looks for lights only */
 } GiFlight;
@@ -82,6 +83,16 @@ struct GiTileScratch {
     bool out_of_memory;
 };
 
+/* What a light that is not a point sends to a surface: one ray. */
+typedef struct GiBeam {
+    GiVec direction;     /* toward the light, unit */
+    GiVec light;         /* E of the direction, or radiance over density */
+    double t_min, t_max; /* of the shadow ray */
+    double distance;     /* to the light */
+    double density;      /* per solid angle; 0: the bsdf cannot find this light */
+    bool radiance;       /* light of a large source, not of a point */
+} GiBeam;
+
 /* What all stages need to know. */
 typedef struct GiStage {
     const GiWorld *world;
@@ -91,6 +102,9 @@ typedef struct GiStage {
     const GiRenderTarget *target;
     uint32_t x, y, sample; /* the tile's corner in the whole picture; number of the sample */
 } GiStage;
+
+/* Whether the pixel is drawn to be explained (render/record.h). */
+static inline bool gi_stage_records(const GiStage *stage) { return stage->target->record != NULL; }
 
 /* Whether to stop; asks the caller now and then. */
 bool gi_stage_stopped(const GiStage *stage);
@@ -190,7 +204,7 @@ bool gi_lights_gloss(const GiRules *rules, const GiShader *shader, GiGloss *glos
 
 /* ---- flight.c */
 
-/* Notes a ray to be followed. */
+/* Keeps a ray to be followed. */
 void gi_flight_add(const GiStage *stage, const GiFlight *flight);
 
 /* Follows the flights until none is left. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "render/stage.h"
+#include "render/record.h"
 #include "shade/shade.h"
 #include "texture/texture.h"
 
@@ -10,6 +10,7 @@ typedef struct Met {
     GiArrival arrival;
     GiShapeRef shape;
     uint32_t instance, pixel;
+    uint32_t ray; /* in the record */
 } Met;
 
 /* ---------------------------------------------------------------- points */
@@ -79,6 +80,19 @@ static inline void extend_segment(GiTileScratch *scratch, uint32_t shader, int c
 
 /* ---------------------------------------------------------------- what shines by itself */
 
+/* Light that a ray has brought, to a pixel. */
+static inline void show(const GiStage *stage, uint32_t pixel, uint32_t ray, GiVec light) {
+    GiVec *color = &stage->scratch->color[pixel];
+    *color = gi_add(*color, light);
+    if (gi_stage_records(stage)) gi_record_add(stage, ray, light);
+}
+
+/* The same of the camera's ray, which brings the first light there is. */
+static inline void show_first(const GiStage *stage, uint32_t pixel, GiVec light) {
+    stage->scratch->color[pixel] = light;
+    if (gi_stage_records(stage)) gi_record_add(stage, 0, light);
+}
+
 /* The share of the light from a large source that falls to a ray that found it by its bsdf; light
  * drawn at the source has the rest. */
 static double share_of_flight(const GiStage *stage, const GiFlight *flight, double light_density) {
@@ -131,6 +145,7 @@ static GiFlight flight_from(const Met *met, const GiSurfacePoint *at) {
     return (GiFlight){.origin = at->point,
         .t_min = at->error,
         .pixel = met->pixel,
+        .ray = met->ray,
         .level = (uint32_t)met->arrival.level + 1};
 }
 
@@ -145,6 +160,7 @@ static void add_branches(
         flight.factor = gi_multiply(met->factor, branch->factor);
         flight.weight = branch->weight;
         flight.inside = branch->inside;
+        if (gi_stage_records(stage)) gi_record_choose(stage, i, 1);
         gi_flight_add(stage, &flight);
     }
 }
@@ -174,6 +190,7 @@ static void add_probe(
     const GiStage *stage, const Met *met, const GiSurfacePoint *at, const GiScatter *scatter) {
     GiFlight flight = flight_from(met, at);
     flight.probe = true;
+    if (gi_stage_records(stage)) gi_record_choose(stage, scatter->count, 1);
     if (draw_direction(stage, met, scatter, &flight)) gi_flight_add(stage, &flight);
 }
 
@@ -189,6 +206,7 @@ static bool survives(const GiStage *stage, GiFlight *flight) {
     if (flight->level <= SAFE_LEVELS) return true;
     double p = gi_largest(flight->factor);
     if (p >= 1) return true;
+    if (gi_stage_records(stage)) gi_record_roulette(stage, p);
     GiSampler sampler = gi_stage_sampler(stage, flight->pixel);
     uint64_t dimension = gi_stage_dimension(flight->level, GI_PURPOSE_ROULETTE);
     if (!(gi_sample_1d(&sampler, dimension) < p)) return false;
@@ -213,6 +231,7 @@ static void add_path(
     while (chosen < scatter->count && at_part >= parts[chosen]) at_part -= parts[chosen++];
     double chance = parts[chosen] / sum;
     if (!(chance > 0)) return;
+    if (gi_stage_records(stage)) gi_record_choose(stage, chosen, chance);
     GiFlight flight = flight_from(met, at);
     if (chosen < scatter->count) {
         const GiBranch *branch = &scatter->branch[chosen];
@@ -250,7 +269,8 @@ static void meet_layers(const GiStage *stage, const Met *met, const GiSurfacePoi
         shader->texture == GI_NONE ? shader->diffuse
                                    : texture_color(world, met, at->point, shader->texture)};
     GiScatter scatter;
-    gi_bsdf_scatter(&shading, &met->arrival, &scatter);
+    gi_bsdf_scatter(&shading, &met->arrival, &scatter, gi_record_notes(stage));
+    if (gi_stage_records(stage)) gi_record_scatter(stage, met->ray, &scatter);
     GiShading *local = &scatter.local;
     if (local->shader != NULL && local->shader != shader && local->shader->texture != GI_NONE) {
         local->diffuse = texture_color(world, met, at->point, local->shader->texture);
@@ -271,8 +291,7 @@ static void meet_layers(const GiStage *stage, const Met *met, const GiSurfacePoi
     scratch->diffuse[i] = local->diffuse;
     if (local->shader != shader) {
         GiVec shine = shine_of(stage, local->shader, at->normal);
-        GiVec *color = &scratch->color[met->pixel];
-        *color = gi_add(*color, gi_multiply(scratch->factors[i], shine));
+        show(stage, met->pixel, met->ray, gi_multiply(scratch->factors[i], shine));
     }
     extend_segment(scratch, place.spot.shader, 1);
     add_point(scratch, at, met->direction, &place);
@@ -314,7 +333,7 @@ static void note_seen(
 static Met met_of_bundle(const GiBundle *bundle, uint32_t i) {
     return (Met){{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
         {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, {1, 1, 1}, bundle->t[i], {1, 1, false},
-        {bundle->shape[i]}, bundle->instance[i], bundle->pixel[i]};
+        {bundle->shape[i]}, bundle->instance[i], bundle->pixel[i], 0};
 }
 
 /* A camera ray's: its color is set, not added to. */
@@ -324,7 +343,7 @@ static void meet_surface(const GiStage *stage, const Met *met, uint32_t shader_i
     const GiShader *shader = &world->scene->shaders.data[shader_index];
     GiSurfacePoint at = point_of(world, met);
     Place place = {met->pixel, skip_of(world, met->shape), met->instance, {shader_index, 1}};
-    scratch->color[met->pixel] = shine_of(stage, shader, at.normal);
+    show_first(stage, met->pixel, shine_of(stage, shader, at.normal));
     if (scratch->seen != NULL) note_seen(stage, met, &at, shader);
     meet_layers(stage, met, &at, shader, place);
 }
@@ -342,7 +361,7 @@ static inline void meet_plain(const GiStage *stage, uint32_t i, uint32_t shader_
     GiSurfacePoint at = gi_shape_point(&world->shapes, shape, bundle->instance[i], origin,
         direction, bundle->t[i], world->rules->cone_geometric);
     uint32_t pixel = bundle->pixel[i];
-    scratch->color[pixel] = shine_of(stage, shader, at.normal);
+    show_first(stage, pixel, shine_of(stage, shader, at.normal));
     if (scratch->seen != NULL) {
         Met met = met_of_bundle(bundle, i);
         note_seen(stage, &met, &at, shader);
@@ -406,16 +425,17 @@ void gi_surface_bundle(const GiStage *stage) {
     const GiBundle *bundle = &scratch->bundle;
     uint32_t next[GI_BUNDLE_SIZE], shaders[GI_BUNDLE_SIZE];
     int shader_count = 0;
+    if (gi_stage_records(stage)) gi_record_camera(stage);
     for (uint32_t i = (uint32_t)bundle->count; i-- > 0;) {
         GiShapeRef shape = {bundle->shape[i]};
         if (shape.bits == GI_SHAPE_NONE) {
             GiVec direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]};
-            scratch->color[bundle->pixel[i]] = background(stage, NULL, direction);
+            show_first(stage, bundle->pixel[i], background(stage, NULL, direction));
             continue;
         }
         if (gi_shape_kind(shape) == GI_SHAPE_RECTANGLE) {
             Met met = met_of_bundle(bundle, i);
-            scratch->color[met.pixel] = rectangle_emission(stage, NULL, &met);
+            show_first(stage, met.pixel, rectangle_emission(stage, NULL, &met));
             continue;
         }
         uint32_t shader = gi_shape_info(&world->shapes, shape, bundle->instance[i])->shader;
@@ -428,24 +448,25 @@ void gi_surface_bundle(const GiStage *stage) {
         meet_shader(stage, shaders[k], scratch->head[shaders[k]], next);
         scratch->head[shaders[k]] = GI_NONE;
     }
+    if (gi_stage_records(stage)) gi_record_points(stage, 0);
 }
 
 void gi_surface_flight(const GiStage *stage, const GiFlight *flight, const GiTraceHit *hit) {
     const GiWorld *world = stage->world;
-    GiVec *color = &stage->scratch->color[flight->pixel];
+    if (gi_stage_records(stage)) gi_record_hit(stage, flight->ray, hit);
     if (hit == NULL) {
         GiVec light = background(stage, flight, flight->direction);
         bool path = world->scene->integrator == GLINT_INTEGRATOR_PATH;
         if (flight->probe && !world->sky_lights && !path) return;
-        *color = gi_add(*color, gi_multiply(flight->factor, light));
+        show(stage, flight->pixel, flight->ray, gi_multiply(flight->factor, light));
         return;
     }
     const Met met = {flight->origin, flight->direction, flight->factor, hit->t,
         {(int)flight->level, flight->weight, flight->inside}, hit->shape, hit->instance,
-        flight->pixel};
+        flight->pixel, flight->ray};
     if (gi_shape_kind(hit->shape) == GI_SHAPE_RECTANGLE) {
         GiVec light = rectangle_emission(stage, flight, &met);
-        *color = gi_add(*color, gi_multiply(flight->factor, light));
+        show(stage, flight->pixel, flight->ray, gi_multiply(flight->factor, light));
         return;
     }
     if (flight->probe) return;
@@ -453,8 +474,9 @@ void gi_surface_flight(const GiStage *stage, const GiFlight *flight, const GiTra
     const GiShader *shader = &world->scene->shaders.data[index];
     GiSurfacePoint at = point_of(world, &met);
     GiVec shine = shine_of(stage, shader, at.normal);
-    *color = gi_add(*color, gi_multiply(flight->factor, shine));
+    show(stage, flight->pixel, flight->ray, gi_multiply(flight->factor, shine));
     Place place = {
         flight->pixel, skip_of(world, hit->shape), hit->instance, {index, flight->level}};
     meet_layers(stage, &met, &at, shader, place);
+    if (gi_stage_records(stage)) gi_record_points(stage, flight->ray);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "render/stage.h"
+#include "render/record.h"
 
 #include <string.h>
 
@@ -244,13 +244,16 @@ bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
     if (scratch->seen != NULL) {
         memset(scratch->seen, 0, (size_t)(extent.height * STRIDE) * sizeof *scratch->seen);
     }
-    for (int sample = 0; sample < n * n; sample++) {
+    int first = 0, end = n * n;
+    if (gi_stage_records(&stage)) gi_record_choose_samples(target->record, &first, &end);
+    for (int sample = first; sample < end; sample++) {
         stage.sample = (uint32_t)sample;
         draw_sample(&stage, area, &extent, (sample % n + 0.5) / n, (sample / n + 0.5) / n);
         if (stopped(control)) return false;
-        if (n > 1) add_sample(&extent, scratch, sample == 0);
+        if (n > 1) add_sample(&extent, scratch, sample == first);
+        if (gi_stage_records(&stage)) gi_record_end(&stage, n * n);
     }
-    if (store(&stage, area, &extent, x, y, n * n)) return true;
+    if (first >= end || store(&stage, area, &extent, x, y, n * n)) return true;
     scratch->out_of_memory = true;
     atomic_store(control->stop, true);
     return false;

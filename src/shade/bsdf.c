@@ -24,6 +24,22 @@ GiVec gi_bsdf_evaluate(const GiShading *at, GiVec l) {
     return gi_vec(0, 0, 0);
 }
 
+GiLobes gi_bsdf_lobes(const GiShading *at, GiVec l) {
+    const GiLobes none = {{0, 0, 0}, {0, 0, 0}, 0, 0, 0};
+    if (turned_away(at)) return none;
+    switch (at->shader->type) {
+    case GLINT_SHADER_LAMBERTIAN: return gi_lambertian_lobes(at, l);
+    case GLINT_SHADER_PHONG: return gi_phong_lobes(at, l);
+    case GLINT_SHADER_BECKMANN:
+    case GLINT_SHADER_GGX: return gi_microfacet_lobes(at, l);
+    case GLINT_SHADER_COOK_TORRANCE: return gi_cook_torrance_lobes(at, l);
+    case GLINT_SHADER_RGB_NORMALS:
+    case GLINT_SHADER_GLAZED:
+    case GLINT_SHADER_GLASS: break;
+    }
+    return none;
+}
+
 double gi_bsdf_radiometric(const GiShading *at) {
     switch (at->shader->type) {
     case GLINT_SHADER_LAMBERTIAN:

@@ -11,7 +11,7 @@ static double mirrored(const GiShading *at, double nv) {
 }
 
 /* F D G / (pi n.v n.l) times n.l. D is pi times the distribution of the microfacets. */
-static double highlight(const GiShading *at, GiVec l, double nl, double nv) {
+static inline double highlight(const GiShading *at, GiVec l, double nl, double nv, GiLobes *lobes) {
     double f = mirrored(at, nv);
     if (f == 0) return 0;
     GiVec v = at->toward_viewer, h = gi_normalize(gi_add(l, v));
@@ -20,14 +20,24 @@ static double highlight(const GiShading *at, GiVec l, double nl, double nv) {
     double d = gi_microfacet_beckmann(
         gi_microfacet_facet(at->normal, h), gi_microfacet_roughness(at->shader));
     double g = fmin(1, fmin(2 * nh * nv / vh, 2 * nh * nl / vh));
+    lobes->fresnel = f, lobes->distribution = GI_PI * d, lobes->masking = g;
     return f * d * g / nv;
 }
 
-GiVec gi_cook_torrance_evaluate(const GiShading *at, GiVec l) {
+static inline GiLobes lobes_of(const GiShading *at, GiVec l) {
     double nl = gi_dot(at->normal, l), nv = gi_dot(at->normal, at->toward_viewer);
-    if (nl <= 0) return gi_vec(0, 0, 0);
-    GiVec diffuse = gi_scale(at->diffuse, nl);
-    return gi_add(diffuse, gi_scale(at->shader->specular, highlight(at, l, nl, nv)));
+    GiLobes lobes = {{0, 0, 0}, {0, 0, 0}, 0, 0, 0};
+    if (nl <= 0) return lobes;
+    lobes.diffuse = gi_scale(at->diffuse, nl);
+    lobes.highlight = gi_scale(at->shader->specular, highlight(at, l, nl, nv, &lobes));
+    return lobes;
+}
+
+GiLobes gi_cook_torrance_lobes(const GiShading *at, GiVec l) { return lobes_of(at, l); }
+
+GiVec gi_cook_torrance_evaluate(const GiShading *at, GiVec l) {
+    GiLobes lobes = lobes_of(at, l);
+    return gi_add(lobes.diffuse, lobes.highlight);
 }
 
 /* A sharp highlight sends back 4 ks F, the base pi kd. */

@@ -8,6 +8,10 @@ GiVec gi_lambertian_evaluate(const GiShading *at, GiVec l) {
     return gi_shade_lambertian(&shader, at->rules, gi_dot(at->normal, l));
 }
 
+GiLobes gi_lambertian_lobes(const GiShading *at, GiVec l) {
+    return (GiLobes){.diffuse = gi_lambertian_evaluate(at, l)};
+}
+
 double gi_lambertian_density(const GiShading *at, GiVec l) {
     return gi_lobe_cosine_density(gi_dot(at->normal, l));
 }

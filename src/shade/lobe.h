@@ -15,22 +15,27 @@
  * rounding, and powers of its inverse stay in the range of double. */
 #define GI_LEAST_COSINE 1e-30
 
-/* ---- each family: f n.l, the density with which it draws l, and the drawing. A draw is false when
- * it leads nowhere; the density of what it gives is what the density function says. */
+/* ---- each family: f n.l and what it consists of, the density with which it draws l, and the
+ * drawing. A draw is false when it leads nowhere; the density of what it gives is what the density
+ * function says. */
 
 GiVec gi_lambertian_evaluate(const GiShading *at, GiVec l);
+GiLobes gi_lambertian_lobes(const GiShading *at, GiVec l);
 double gi_lambertian_density(const GiShading *at, GiVec l);
 bool gi_lambertian_draw(const GiShading *at, const double u[3], GiVec *l);
 
 GiVec gi_phong_evaluate(const GiShading *at, GiVec l);
+GiLobes gi_phong_lobes(const GiShading *at, GiVec l);
 double gi_phong_density(const GiShading *at, GiVec l);
 bool gi_phong_draw(const GiShading *at, const double u[3], GiVec *l);
 
 GiVec gi_microfacet_evaluate(const GiShading *at, GiVec l);
+GiLobes gi_microfacet_lobes(const GiShading *at, GiVec l);
 double gi_microfacet_density(const GiShading *at, GiVec l);
 bool gi_microfacet_draw(const GiShading *at, const double u[3], GiVec *l);
 
 GiVec gi_cook_torrance_evaluate(const GiShading *at, GiVec l);
+GiLobes gi_cook_torrance_lobes(const GiShading *at, GiVec l);
 double gi_cook_torrance_density(const GiShading *at, GiVec l);
 bool gi_cook_torrance_draw(const GiShading *at, const double u[3], GiVec *l);
 

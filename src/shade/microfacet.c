@@ -66,18 +66,32 @@ static double masking_over_cosine(const GiShader *shader, double c) {
 
 /* ---------------------------------------------------------------- light */
 
-GiVec gi_microfacet_evaluate(const GiShading *at, GiVec l) {
+/* The masking that is kept is over both cosines. */
+static inline GiLobes lobes_of(const GiShading *at, GiVec l) {
     const GiShader *shader = at->shader;
     GiVec n = at->normal, v = at->toward_viewer;
     double nl = gi_dot(n, l), nv = gi_dot(n, v);
-    if (nl <= GI_LEAST_COSINE || nv <= GI_LEAST_COSINE) return gi_vec(0, 0, 0);
+    if (nl <= GI_LEAST_COSINE || nv <= GI_LEAST_COSINE) {
+        return (GiLobes){{0, 0, 0}, {0, 0, 0}, 0, 0, 0};
+    }
     GiVec m = gi_normalize(gi_add(l, v));
     double f = gi_dielectric_fresnel(gi_dot(l, m), shader->index);
     double d = distribution(shader, gi_microfacet_facet(n, m));
     double g = masking_over_cosine(shader, nl) * masking_over_cosine(shader, nv);
     GiVec diffuse = gi_scale(at->diffuse, GI_INVERSE_PI * nl);
     GiVec specular = gi_scale(shader->specular, f * d * g / 4 * nl);
-    return gi_add(diffuse, specular);
+    return (GiLobes){diffuse, specular, f, d, g};
+}
+
+GiVec gi_microfacet_evaluate(const GiShading *at, GiVec l) {
+    GiLobes lobes = lobes_of(at, l);
+    return gi_add(lobes.diffuse, lobes.highlight);
+}
+
+GiLobes gi_microfacet_lobes(const GiShading *at, GiVec l) {
+    GiLobes lobes = lobes_of(at, l);
+    lobes.masking *= gi_dot(at->normal, l) * gi_dot(at->normal, at->toward_viewer);
+    return lobes;
 }
 
 /* ---------------------------------------------------------------- directions */

@@ -4,10 +4,15 @@
  */
 #include "shade/lobe.h"
 
-GiVec gi_phong_evaluate(const GiShading *at, GiVec l) {
+GiLobes gi_phong_lobes(const GiShading *at, GiVec l) {
     GiShader shader = *at->shader;
     shader.diffuse = at->diffuse;
     return gi_shade_phong(&shader, at->rules, at->normal, at->toward_viewer, l);
+}
+
+GiVec gi_phong_evaluate(const GiShading *at, GiVec l) {
+    GiLobes lobes = gi_phong_lobes(at, l);
+    return gi_add(lobes.diffuse, lobes.highlight);
 }
 
 /* That of the lobe: a negative exponent has no density and is drawn as 0 is; a huge one, whose

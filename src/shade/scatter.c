@@ -21,9 +21,20 @@ static bool counts(const GiShading *at, Rest rest) {
     return !gi_vec_is_zero(rest.factor) && rest.weight >= at->rules->least_weight;
 }
 
-static void add(const GiShading *at, GiScatter *scatter, GiVec direction, Rest rest, bool inside) {
-    if (!counts(at, rest) || scatter->count == GI_BRANCH_LIMIT) return;
-    scatter->branch[scatter->count++] = (GiBranch){direction, rest.factor, rest.weight, inside};
+static GiBranchNote add(const GiShading *at, GiScatter *scatter, GiVec direction, Rest rest,
+    bool inside, bool through) {
+    GiBranchNote note = {GI_BRANCH_LISTED, scatter->count, rest.factor, rest.weight};
+    if (!counts(at, rest) || scatter->count == GI_BRANCH_LIMIT) {
+        note.outcome = gi_vec_is_zero(rest.factor) ? GI_BRANCH_NOTHING : GI_BRANCH_TOO_LIGHT;
+        return note;
+    }
+    scatter->branch[scatter->count++] =
+        (GiBranch){direction, rest.factor, rest.weight, inside, through};
+    return note;
+}
+
+static void note_layer(GiScatter *scatter, GiLayerNote note) {
+    if (scatter->notes != NULL) scatter->notes->layers[scatter->notes->count++] = note;
 }
 
 /* ---------------------------------------------------------------- glazing */
@@ -34,9 +45,16 @@ static bool scatter_glazed(
     const GiRules *rules = at->rules;
     GiVec n = at->normal, v = at->toward_viewer;
     double c = gi_dot(n, v), m = at->shader->index;
-    if (c < 0) return rules->glazed_behind; /* R = 0 there, or all is black */
+    GiLayerNote note = {.shader = at->shader, .behind = c < 0, .cosine = c};
+    if (c < 0) {
+        note_layer(scatter, note);
+        return rules->glazed_behind; /* R = 0 there, or all is black */
+    }
     double r = rules->schlick ? gi_dielectric_schlick(c, m) : gi_dielectric_fresnel(c, m);
-    add(at, scatter, gi_dielectric_mirror(n, v, c), weaken(*rest, r), arrival->inside);
+    note.reflectance = r;
+    note.mirrored =
+        add(at, scatter, gi_dielectric_mirror(n, v, c), weaken(*rest, r), arrival->inside, false);
+    note_layer(scatter, note);
     if (!rules->glazed_adds) *rest = weaken(*rest, 1 - r);
     return counts(at, *rest);
 }
@@ -50,19 +68,30 @@ static void scatter_glass(
     bool inside = rules->glass_by_flag ? arrival->inside : gi_dot(n, v) < 0;
     if (inside) n = gi_negate(n);
     double c = gi_dot(n, v), m = at->shader->index;
-    if (c < 0) return; /* the flag is wrong about the side: black */
+    GiLayerNote note = {.shader = at->shader, .inside = inside, .behind = c < 0, .cosine = c};
+    if (c < 0) { /* the flag is wrong about the side: black */
+        note_layer(scatter, note);
+        return;
+    }
     double e = inside ? m : 1 / m, ct;
     GiVec mirrored = gi_dielectric_mirror(n, v, c);
+    note.ratio = e;
     if (!gi_dielectric_cosine_behind(c, e, &ct)) {
-        add(at, scatter, mirrored, rest, inside);
+        note.total = true;
+        note.reflectance = 1;
+        note.mirrored = add(at, scatter, mirrored, rest, inside, false);
+        note_layer(scatter, note);
         return;
     }
     /* Schlick's formula wants the cosine on the side of the air. */
     double r = rules->schlick ? gi_dielectric_schlick(inside ? ct : c, m)
                               : gi_dielectric_reflectance(c, ct, 1 / e);
     GiVec through = gi_dielectric_refract(n, v, c, ct, e);
-    add(at, scatter, through, weaken(rest, 1 - r), !inside);
-    add(at, scatter, mirrored, weaken(rest, r), inside);
+    note.cosine_behind = ct;
+    note.reflectance = r;
+    note.refracted = add(at, scatter, through, weaken(rest, 1 - r), !inside, true);
+    note.mirrored = add(at, scatter, mirrored, weaken(rest, r), inside, false);
+    note_layer(scatter, note);
 }
 
 /* ---------------------------------------------------------------- mirror coefficient */
@@ -74,11 +103,19 @@ static void scatter_mirror(
     GiVec k = at->shader->mirror;
     GiVec n = at->normal, v = at->toward_viewer;
     double c = gi_dot(n, v);
-    if (!(k.x > 0 || k.y > 0 || k.z > 0) || c < 0) return;
+    if (!(k.x > 0 || k.y > 0 || k.z > 0)) return;
+    GiLayerNote note = {.shader = at->shader, .behind = c < 0, .cosine = c};
+    if (c < 0) {
+        note_layer(scatter, note);
+        return;
+    }
     double x = 1 - c, power = x * x * x * x * x;
     GiVec factor = gi_add(k, gi_scale(gi_sub(gray(1), k), power));
     Rest mirrored = {gi_multiply(rest.factor, factor), rest.weight * gi_largest(factor)};
-    add(at, scatter, gi_dielectric_mirror(n, v, c), mirrored, arrival->inside);
+    note.reflectance = gi_largest(factor);
+    note.mirrored =
+        add(at, scatter, gi_dielectric_mirror(n, v, c), mirrored, arrival->inside, false);
+    note_layer(scatter, note);
 }
 
 /* ---------------------------------------------------------------- layers */
@@ -101,7 +138,8 @@ static bool step_down(GiShading *layer) {
     return true;
 }
 
-void gi_bsdf_scatter(const GiShading *at, const GiArrival *arrival, GiScatter *scatter) {
+void gi_bsdf_scatter(
+    const GiShading *at, const GiArrival *arrival, GiScatter *scatter, GiScatterNotes *notes) {
     const GiRules *rules = at->rules;
     GiShading layer = *at;
     Rest rest = {gray(1), arrival->weight};
@@ -109,7 +147,10 @@ void gi_bsdf_scatter(const GiShading *at, const GiArrival *arrival, GiScatter *s
     scatter->local.shader = NULL;
     scatter->local_factor = gray(0);
     scatter->count = 0;
+    scatter->notes = notes;
+    if (notes != NULL) notes->count = 0, notes->ends = false;
     if (is_transparent(layer.shader) && rules->glass_ends && arrival->level >= rules->last_level) {
+        if (notes != NULL) notes->ends = true;
         return;
     }
     for (int depth = 0; layer.shader->type == GLINT_SHADER_GLAZED; depth++) {

@@ -30,17 +30,18 @@ static inline GiVec gi_shade_lambertian(const GiShader *shader, const GiRules *r
 }
 
 /* Blinn (1977). */
-static inline GiVec gi_shade_phong(
+static inline GiLobes gi_shade_phong(
     const GiShader *shader, const GiRules *rules, GiVec n, GiVec v, GiVec l) {
     double nl = gi_dot(n, l);
-    if (rules->highlight_needs_light && nl <= 0) return gi_vec(0, 0, 0);
+    GiLobes lobes = {{0, 0, 0}, {0, 0, 0}, 0, 0, 0};
+    if (rules->highlight_needs_light && nl <= 0) return lobes;
     GiVec h = gi_normalize(gi_add(l, v));
     double highlight = gi_pow(gi_shade_positive(gi_dot(n, h)), shader->exponent);
     double cosine = gi_shade_positive(nl);
-    GiVec diffuse = gi_scale(shader->diffuse, gi_shade_diffuse_factor(rules) * cosine);
-    GiVec specular =
+    lobes.diffuse = gi_scale(shader->diffuse, gi_shade_diffuse_factor(rules) * cosine);
+    lobes.highlight =
         gi_scale(shader->specular, rules->phong_cosine ? highlight * cosine : highlight);
-    return gi_add(diffuse, specular);
+    return lobes;
 }
 
 /* Whether a light falls off with the square of the distance. */
