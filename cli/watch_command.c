@@ -8,6 +8,7 @@
 #include "verb.h"
 #include "watch/screen.h"
 #include "watch/window.h"
+#include "watch_why.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -165,7 +166,8 @@ static CliStatus run(void *values, const CliOperands *operands) {
     return show(options);
 }
 
-static Options defaults = {.session = {.dialect = GLINT_DIALECT_AUTO}};
+static Options defaults = {
+    .session = {.dialect = GLINT_DIALECT_AUTO, .explain = cli_watch_explain}};
 
 const CliVerb cli_verb_watch = {.name = "watch",
     .operands = "SCENE",

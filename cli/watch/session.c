@@ -40,12 +40,13 @@ struct CliSession {
     pthread_t watcher, drawer;
     bool has_watcher, has_drawer;
     pthread_mutex_t lock, scene_lock;
-    pthread_cond_t requested;
+    pthread_cond_t requested, answered;
 
     /* Requests: set under lock, and read without by a call that may have to be given up. */
     atomic_bool quit, reload, redraw;
-    double noticed; /* the save, for the next load */
-    double changed; /* what is to be drawn */
+    atomic_int askers; /* threads that want the scene, which is then not drawn */
+    double noticed;    /* the save, for the next load */
+    double changed;    /* what is to be drawn */
     GlintCameraDesc camera;
     int view;
 
@@ -56,12 +57,15 @@ struct CliSession {
     bool moved;                  /* camera is not that of the file; under lock */
     double distance;             /* the last that was found; under scene_lock; 0: none */
 
+    bool drawing; /* the drawer uses the scene; under lock */
+
     CliFrame frame; /* its pixels go to whoever takes them */
     bool fresh;     /* they are there */
 
     /* The drawer's own. */
     CliSchedule schedule;
     CliStep step;
+    bool again; /* the step was not finished */
     GlintCameraDesc drawn_camera;
     int drawn_view;
     double drawn_change, step_began, share;
@@ -184,7 +188,8 @@ static void load(CliSession *session) {
         frame->broken = status != GLINT_OK;
         frame->saved = session->noticed;
         frame->loads++;
-        frame->number++;
+        /* What is well shows with its first picture, so that nothing flickers. */
+        if (status != GLINT_OK) frame->number++;
         pthread_mutex_unlock(&session->lock);
     }
     if (status == GLINT_OK) {
@@ -194,14 +199,14 @@ static void load(CliSession *session) {
         cli_bytes_reset(&text);
     }
     cli_bytes_reset(&findings);
-    if (!given_up) tell(session);
+    if (!given_up && status != GLINT_OK) tell(session);
 }
 
 /* ---------------------------------------------------------------- drawing */
 
 static bool step_is_old(void *user) {
     const CliSession *session = user;
-    if (load_is_old(user)) return true;
+    if (load_is_old(user) || atomic_load(&session->askers) > 0) return true;
     if (!atomic_load(&session->redraw)) return false;
     return !session->step.first || cli_clock() - session->step_began > patience;
 }
@@ -273,10 +278,17 @@ static void publish_failure(CliSession *session, const GlintError *error) {
     tell(session);
 }
 
-static void draw(CliSession *session) {
+/* A step that was given up for somebody who asked is drawn once more. */
+static bool next_step(CliSession *session) {
+    bool again = session->again && !atomic_load(&session->redraw);
+    session->again = false;
     begin_picture(session);
+    return again || cli_schedule_next(&session->schedule, &session->step);
+}
+
+static void draw(CliSession *session) {
     CliStep *step = &session->step;
-    if (!cli_schedule_next(&session->schedule, step)) return;
+    if (!next_step(session)) return;
     GlintMonitor monitor = {on_progress, step_is_old, session};
     GlintRenderDesc desc = glint_render_desc_default();
     desc.width = step->width;
@@ -298,9 +310,9 @@ static void draw(CliSession *session) {
         cli_schedule_measure(&session->schedule, step, taken, 1);
         publish(session);
     } else if (status == GLINT_CANCELLED) {
-        /* If it was for a scene that turns out to be wrong, this one goes on. */
+        /* If it was for a scene that turns out to be wrong, or for a question, this one goes on. */
         cli_schedule_measure(&session->schedule, step, taken, session->share);
-        atomic_store(&session->redraw, true);
+        session->again = true;
     } else {
         publish_failure(session, &error);
     }
@@ -308,20 +320,29 @@ static void draw(CliSession *session) {
 
 /* ---------------------------------------------------------------- the threads */
 
+static bool has_work(const CliSession *session) {
+    if (session->scene == NULL || atomic_load(&session->askers) > 0) return false;
+    return session->again || !session->schedule.ended || atomic_load(&session->redraw);
+}
+
 static void *draw_on(void *user) {
     CliSession *session = user;
     for (;;) {
         pthread_mutex_lock(&session->lock);
-        while (!atomic_load(&session->quit) && !atomic_load(&session->reload) &&
-               (session->scene == NULL ||
-                   (session->schedule.ended && !atomic_load(&session->redraw)))) {
+        while (
+            !atomic_load(&session->quit) && !atomic_load(&session->reload) && !has_work(session)) {
             pthread_cond_wait(&session->requested, &session->lock);
         }
         bool quits = atomic_load(&session->quit), loads = atomic_exchange(&session->reload, false);
+        session->drawing = !quits;
         pthread_mutex_unlock(&session->lock);
         if (quits) return NULL;
         if (loads) load(session);
         if (session->scene != NULL && !load_is_old(session)) draw(session);
+        pthread_mutex_lock(&session->lock);
+        session->drawing = false;
+        pthread_cond_broadcast(&session->answered);
+        pthread_mutex_unlock(&session->lock);
     }
 }
 
@@ -357,6 +378,7 @@ CliSession *cli_session_create(const CliSessionDesc *desc, char *message, size_t
     pthread_mutex_init(&session->lock, NULL);
     pthread_mutex_init(&session->scene_lock, NULL);
     pthread_cond_init(&session->requested, NULL);
+    pthread_cond_init(&session->answered, NULL);
     session->schedule.ended = true;
     session->changed = session->noticed = cli_clock();
     atomic_init(&session->reload, true);
@@ -393,6 +415,7 @@ void cli_session_destroy(CliSession *session) {
     free(session->pixels.data);
     free(session->path);
     pthread_cond_destroy(&session->requested);
+    pthread_cond_destroy(&session->answered);
     pthread_mutex_destroy(&session->scene_lock);
     pthread_mutex_destroy(&session->lock);
     free(session);
@@ -494,6 +517,23 @@ bool cli_session_camera(CliSession *session, GlintCameraDesc *camera, double *di
 
 static int clamp(int value, int limit) { return value < 0 ? 0 : value < limit ? value : limit - 1; }
 
+/* Takes the scene from the drawer, who stops within a few tens of milliseconds; and back. */
+static void begin_question(CliSession *session) {
+    pthread_mutex_lock(&session->lock);
+    atomic_fetch_add(&session->askers, 1);
+    while (session->drawing) pthread_cond_wait(&session->answered, &session->lock);
+    pthread_mutex_unlock(&session->lock);
+    pthread_mutex_lock(&session->scene_lock);
+}
+
+static void end_question(CliSession *session) {
+    pthread_mutex_unlock(&session->scene_lock);
+    pthread_mutex_lock(&session->lock);
+    atomic_fetch_sub(&session->askers, 1);
+    pthread_cond_signal(&session->requested);
+    pthread_mutex_unlock(&session->lock);
+}
+
 void cli_session_pick(
     CliSession *session, const CliFrame *frame, double x, double y, CliBytes *text) {
     if (frame->pixels == NULL) return;
@@ -505,9 +545,19 @@ void cli_session_pick(
         .y = clamp((int)(y * frame->full_height), frame->full_height),
         .color = frame->pixels + 3 * (row * (size_t)frame->width + column),
         .camera = &frame->camera};
-    pthread_mutex_lock(&session->scene_lock);
-    if (session->scene != NULL) cli_pick_describe(session->scene, &picked, text);
-    pthread_mutex_unlock(&session->scene_lock);
+    GlintRenderDesc desc = glint_render_desc_default();
+    desc.width = frame->full_width;
+    desc.height = frame->full_height;
+    desc.samples = session->desc.samples;
+    desc.camera = &frame->camera;
+    begin_question(session);
+    if (session->scene != NULL) {
+        cli_pick_describe(session->scene, &picked, text);
+        if (session->desc.explain != NULL) {
+            session->desc.explain(session->scene, &desc, session->path, picked.x, picked.y, text);
+        }
+    }
+    end_question(session);
 }
 
 /* ---------------------------------------------------------------- writing the camera down */
