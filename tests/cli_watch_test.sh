@@ -158,8 +158,11 @@ xdotool windowsize "$window" 600 400
 convert expected.png -filter point -resize 200% -depth 8 ppm:double.ppm
 check "a larger window shows larger pixels" waits_for shows double.ppm
 
+"$glint" watch --window --once a.xml >out 2>err </dev/null
+check "--once ends by itself" test $? -eq 0
+xdotool windowfocus "$window"
 xdotool key q
-waits_for sh -c "! kill -0 $watcher 2>/dev/null"
+waits_for sh -c "! kill -0 $watcher 2>/dev/null" || kill -9 $watcher
 wait $watcher
 check "q quits: $?" test $? -eq 0
 watcher=
