@@ -47,6 +47,7 @@ class GlintError(Structure):
         ("path", c_char * 256),
         ("message", c_char * 256),
     ]
+    _enums_ = {"status": Status}
 
 
 class Severity(IntEnum):
@@ -67,6 +68,7 @@ class GlintDiagnostic(Structure):
         ("caret", c_int),
         ("caret_length", c_int),
     ]
+    _enums_ = {"severity": Severity}
 
 
 GlintDiagnosticFn = CFUNCTYPE(None, c_void_p, POINTER(GlintDiagnostic))
@@ -149,6 +151,7 @@ class GlintSceneDesc(Structure):
         ("keep_sources", c_bool),
         ("cookie", c_int),
     ]
+    _enums_ = {"dialect": Dialect}
 
 
 GlintReadFn = CFUNCTYPE(c_int64, c_void_p, c_void_p, c_size_t)
@@ -190,6 +193,7 @@ class GlintSceneFile(Structure):
         ("size", c_uint64),
         ("digest", c_uint64),
     ]
+    _enums_ = {"kind": FileKind}
 
 
 class Integrator(IntEnum):
@@ -212,6 +216,7 @@ class GlintImageDesc(Structure):
         ("max_depth", c_int),
         ("cookie", c_int),
     ]
+    _enums_ = {"integrator": Integrator}
 
 
 class CameraType(IntEnum):
@@ -233,6 +238,7 @@ class GlintCameraDesc(Structure):
         ("view_height", c_double),
         ("cookie", c_int),
     ]
+    _enums_ = {"type": CameraType}
 
 
 class ShaderType(IntEnum):
@@ -261,6 +267,7 @@ class GlintShaderDesc(Structure):
         ("texture", GlintTextureId),
         ("cookie", c_int),
     ]
+    _enums_ = {"type": ShaderType}
 
 
 class Wrap(IntEnum):
@@ -278,6 +285,7 @@ class GlintTextureDesc(Structure):
         ("wrap", c_int),
         ("cookie", c_int),
     ]
+    _enums_ = {"wrap": Wrap}
 
 
 class LightType(IntEnum):
@@ -311,6 +319,7 @@ class GlintLightDesc(Structure):
         ("height", c_double),
         ("cookie", c_int),
     ]
+    _enums_ = {"type": LightType, "falloff": Falloff}
 
 
 class GlintMeshDesc(Structure):
@@ -355,6 +364,7 @@ class GlintSurfaceDesc(Structure):
         ("source", GlintSurfaceId),
         ("cookie", c_int),
     ]
+    _enums_ = {"type": SurfaceType}
 
 
 class GlintSceneInfo(Structure):
@@ -367,6 +377,7 @@ class GlintSceneInfo(Structure):
         ("light_count", c_uint32),
         ("shader_count", c_uint32),
     ]
+    _enums_ = {"dialect": Dialect}
 
 
 class Sampling(IntEnum):
@@ -395,6 +406,7 @@ class GlintRenderDesc(Structure):
         ("camera", POINTER(GlintCameraDesc)),
         ("cookie", c_int),
     ]
+    _enums_ = {"sampling": Sampling}
 
 
 class GlintRay(Structure):
@@ -462,6 +474,7 @@ class GlintExplainRay(Structure):
         ("local_factor", c_double * 3),
         ("diffuse_color", c_double * 3),
     ]
+    _enums_ = {"kind": RayKind, "end": RayEnd, "surface_type": SurfaceType}
 
 
 class BranchFate(IntEnum):
@@ -488,6 +501,7 @@ class GlintExplainBranch(Structure):
         ("chance", c_double),
         ("survival", c_double),
     ]
+    _enums_ = {"kind": RayKind, "fate": BranchFate}
 
 
 class GlintExplainLayer(Structure):
@@ -548,6 +562,7 @@ class GlintExplainLight(Structure):
         ("blocker_point", c_double * 3),
         ("addition", c_uint32),
     ]
+    _enums_ = {"fate": LightFate, "blocker_type": SurfaceType}
 
 
 class GlintExplainAddition(Structure):
@@ -647,6 +662,7 @@ class GlintRecipeFile(Structure):
         ("digest", c_uint64),
         ("bytes", c_void_p),
     ]
+    _enums_ = {"kind": FileKind}
 
 
 class GlintRecipe(Structure):
@@ -667,6 +683,7 @@ class GlintRecipe(Structure):
         ("files", POINTER(GlintRecipeFile)),
         ("file_count", c_int),
     ]
+    _enums_ = {"dialect": Dialect, "sampling": Sampling}
 
 
 class GlintSaveDesc(Structure):
