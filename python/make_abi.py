@@ -131,12 +131,17 @@ class Header:
     # ------------------------------------------------------------ structs
 
     def read_struct(self, name: str, body: str) -> None:
-        fields = [field for part in body.split(";") for field in self.fields(part.strip())]
+        declarations = [part.strip() for part in body.split(";")]
+        fields = [field for declaration in declarations for field in self.fields(declaration)]
         lines = [f'        ("{field}", {kind}),' for field, kind in fields]
+        lines = [f"class {name}(Structure):", "    _fields_ = [", *lines, "    ]"]
+        # For ctypes an enum is an int; this remembers which.
+        enums = [d.split() for d in declarations if d.split(" ")[0] in self.enums]
+        if enums:
+            members = ", ".join(f'"{field}": {kind[5:]}' for kind, field in enums)
+            lines.append(f"    _enums_ = {{{members}}}")
         self.structs.add(name)
-        self.blocks.append(
-            "\n".join([f"class {name}(Structure):", "    _fields_ = [", *lines, "    ]"])
-        )
+        self.blocks.append("\n".join(lines))
 
     def fields(self, declaration: str) -> list[tuple[str, str]]:
         """Of `const double a[3], *b`: name and kind of each."""

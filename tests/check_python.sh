@@ -32,7 +32,7 @@ count() { # count COMMAND...: adds up what it ends with, and shows the rest
 
 count "$python" "$source/tests/python/run.py"
 # Without the site's packages there is no NumPy.
-count "$python" -S "$source/tests/python/run.py" --plain building image scene tracing
+count "$python" -S "$source/tests/python/run.py" --plain building explaining image scene tracing
 
 echo "$passed passed, $failed failed, $skipped skipped"
 [ "$failed" -eq 0 ]

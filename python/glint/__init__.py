@@ -23,17 +23,22 @@ from __future__ import annotations
 
 from ._abi import VERSION as __version__
 from ._abi import (
+    BranchFate,
     CameraType,
     Falloff,
     FileKind,
     Integrator,
+    LightFate,
     LightType,
     ObjectKind,
     Phase,
+    RayEnd,
+    RayKind,
     Sampling,
     Severity,
     ShaderType,
     Status,
+    SurfaceType,
     Wrap,
 )
 from ._handle import dialects
@@ -41,15 +46,19 @@ from ._library import instruction_sets, library_path, use_library
 from .building import GroupId, MeshId, ShaderId, SurfaceId, TextureId, Vector
 from .camera import Camera
 from .errors import Diagnostic, GlintError
+from .explaining import ExplainedSample, Explanation
 from .image import Image, can_save
 from .recipe import Recipe, RecipeFile, picture_digest
 from .scene import Scene, SceneFile, SceneInfo, Source, Stats
 from .tracing import Hit, Hits
 
 __all__ = [
+    "BranchFate",
     "Camera",
     "CameraType",
     "Diagnostic",
+    "ExplainedSample",
+    "Explanation",
     "Falloff",
     "FileKind",
     "GlintError",
@@ -58,10 +67,13 @@ __all__ = [
     "Hits",
     "Image",
     "Integrator",
+    "LightFate",
     "LightType",
     "MeshId",
     "ObjectKind",
     "Phase",
+    "RayEnd",
+    "RayKind",
     "Recipe",
     "RecipeFile",
     "Sampling",
@@ -75,6 +87,7 @@ __all__ = [
     "Stats",
     "Status",
     "SurfaceId",
+    "SurfaceType",
     "TextureId",
     "Vector",
     "Wrap",

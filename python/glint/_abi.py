@@ -47,6 +47,7 @@ class GlintError(Structure):
         ("path", c_char * 256),
         ("message", c_char * 256),
     ]
+    _enums_ = {"status": Status}
 
 
 class Severity(IntEnum):
@@ -70,6 +71,7 @@ class GlintDiagnostic(Structure):
         ("rule", c_char_p),
         ("hint", c_char_p),
     ]
+    _enums_ = {"severity": Severity}
 
 
 GlintDiagnosticFn = CFUNCTYPE(None, c_void_p, POINTER(GlintDiagnostic))
@@ -152,6 +154,7 @@ class GlintSceneDesc(Structure):
         ("keep_sources", c_bool),
         ("cookie", c_int),
     ]
+    _enums_ = {"dialect": Dialect}
 
 
 GlintReadFn = CFUNCTYPE(c_int64, c_void_p, c_void_p, c_size_t)
@@ -193,6 +196,7 @@ class GlintSceneFile(Structure):
         ("size", c_uint64),
         ("digest", c_uint64),
     ]
+    _enums_ = {"kind": FileKind}
 
 
 class Integrator(IntEnum):
@@ -215,6 +219,7 @@ class GlintImageDesc(Structure):
         ("max_depth", c_int),
         ("cookie", c_int),
     ]
+    _enums_ = {"integrator": Integrator}
 
 
 class CameraType(IntEnum):
@@ -236,6 +241,7 @@ class GlintCameraDesc(Structure):
         ("view_height", c_double),
         ("cookie", c_int),
     ]
+    _enums_ = {"type": CameraType}
 
 
 class ShaderType(IntEnum):
@@ -264,6 +270,7 @@ class GlintShaderDesc(Structure):
         ("texture", GlintTextureId),
         ("cookie", c_int),
     ]
+    _enums_ = {"type": ShaderType}
 
 
 class Wrap(IntEnum):
@@ -281,6 +288,7 @@ class GlintTextureDesc(Structure):
         ("wrap", c_int),
         ("cookie", c_int),
     ]
+    _enums_ = {"wrap": Wrap}
 
 
 class LightType(IntEnum):
@@ -314,6 +322,7 @@ class GlintLightDesc(Structure):
         ("height", c_double),
         ("cookie", c_int),
     ]
+    _enums_ = {"type": LightType, "falloff": Falloff}
 
 
 class GlintMeshDesc(Structure):
@@ -358,6 +367,7 @@ class GlintSurfaceDesc(Structure):
         ("source", GlintSurfaceId),
         ("cookie", c_int),
     ]
+    _enums_ = {"type": SurfaceType}
 
 
 class GlintSceneInfo(Structure):
@@ -370,6 +380,7 @@ class GlintSceneInfo(Structure):
         ("light_count", c_uint32),
         ("shader_count", c_uint32),
     ]
+    _enums_ = {"dialect": Dialect}
 
 
 class Sampling(IntEnum):
@@ -413,6 +424,7 @@ class GlintRenderDesc(Structure):
         ("shown_range", c_void_p),
         ("cookie", c_int),
     ]
+    _enums_ = {"sampling": Sampling}
 
 
 class GlintRay(Structure):
@@ -480,6 +492,7 @@ class GlintExplainRay(Structure):
         ("local_factor", c_double * 3),
         ("diffuse_color", c_double * 3),
     ]
+    _enums_ = {"kind": RayKind, "end": RayEnd, "surface_type": SurfaceType}
 
 
 class BranchFate(IntEnum):
@@ -506,6 +519,7 @@ class GlintExplainBranch(Structure):
         ("chance", c_double),
         ("survival", c_double),
     ]
+    _enums_ = {"kind": RayKind, "fate": BranchFate}
 
 
 class GlintExplainLayer(Structure):
@@ -566,6 +580,7 @@ class GlintExplainLight(Structure):
         ("blocker_point", c_double * 3),
         ("addition", c_uint32),
     ]
+    _enums_ = {"fate": LightFate, "blocker_type": SurfaceType}
 
 
 class GlintExplainAddition(Structure):
@@ -674,6 +689,7 @@ class GlintRecipeFile(Structure):
         ("digest", c_uint64),
         ("bytes", c_void_p),
     ]
+    _enums_ = {"kind": FileKind}
 
 
 class GlintRecipe(Structure):
@@ -694,6 +710,7 @@ class GlintRecipe(Structure):
         ("files", POINTER(GlintRecipeFile)),
         ("file_count", c_int),
     ]
+    _enums_ = {"dialect": Dialect, "sampling": Sampling}
 
 
 class GlintSaveDesc(Structure):

@@ -18,7 +18,7 @@ from ._monitor import Progress
 from .building import Building
 from .camera import Camera
 from .errors import Diagnostic, text
-from .rendering import Rendering
+from .explaining import Explaining
 from .tracing import Tracing
 
 Self = TypeVar("Self", bound="Scene")
@@ -93,7 +93,7 @@ class Source:
     """From 1, in characters."""
 
 
-class Scene(Building, Rendering, Tracing):
+class Scene(Building, Explaining, Tracing):
     """A scene: first filled, from XML or by calls, then drawn and asked what rays meet.
 
         with glint.Scene.from_file("scenes/solids.xml") as scene:
