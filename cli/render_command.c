@@ -88,6 +88,7 @@ static CliStatus choose_area(Drawing *drawing) {
     drawing->area.crop_y = stats->crop_y;
     drawing->area.crop_width = crop ? stats->crop_width : 0;
     drawing->area.crop_height = crop ? stats->crop_height : 0;
+    drawing->area.mistakes = drawing->options->mistakes;
     drawing->area.monitor = &drawing->file.monitor;
     return CLI_OK;
 }
@@ -154,6 +155,8 @@ static CliStatus draw(Drawing *drawing) {
     desc.dialect = drawing->options->dialect;
     desc.thread_count = drawing->options->thread_count;
     desc.isa = drawing->options->isa;
+    desc.reverse_transforms =
+        drawing->options->mistakes.set & GLINT_MISTAKE_BIT(GLINT_MISTAKE_TRANSFORMS_REVERSED);
     refused = cli_scene_file_load(&drawing->file, &desc);
     if (refused != CLI_OK) return refused;
     refused = choose_area(drawing);
@@ -200,9 +203,18 @@ static CliStatus list_isa(void) {
     return cli_message_flush_output();
 }
 
+static CliStatus list_mistakes(void) {
+    for (int i = 0; i < GLINT_MISTAKE_COUNT; i++) {
+        printf(
+            "%-20s %s\n", glint_mistake_name((GlintMistake)i), glint_mistake_text((GlintMistake)i));
+    }
+    return cli_message_flush_output();
+}
+
 static CliStatus run(void *values, const CliOperands *operands) {
     const CliRenderOptions *options = values;
     if (options->list_isa) return list_isa();
+    if (options->list_mistakes) return list_mistakes();
     CliJobs jobs;
     CliStatus status = cli_jobs_init(&jobs, operands, options->output);
     bool progress = !options->quiet && cli_message_on_terminal();

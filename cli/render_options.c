@@ -67,6 +67,12 @@ static CliStatus set_layers(void *values, const char *value) {
     }
 }
 
+static CliStatus set_break(void *values, const char *value) {
+    CliRenderOptions *options = values;
+    options->list_mistakes = strcmp(value, "list") == 0;
+    return options->list_mistakes ? CLI_OK : cli_value_mistakes("break", value, &options->mistakes);
+}
+
 static CliStatus set_dialect(void *values, const char *value) {
     CliRenderOptions *options = values;
     return cli_value_dialect(value, &options->dialect);
@@ -123,6 +129,8 @@ const CliOption cli_render_option_table[CLI_RENDER_OPTION_COUNT] = {
         "draw N samples a pixel, whatever the scene says", set_samples},
     {0, "layers", "A,B", CLI_FORM_REQUIRED, picture,
         "add depth, normal, albedo, surface, lights, or all", set_layers},
+    {0, "break", "A,B", CLI_FORM_REQUIRED, picture,
+        "draw with typical mistakes; --break list names them", set_break},
     {0, "dialect", "NAME", CLI_FORM_REQUIRED, picture, "follow the rules of a year (see below)",
         set_dialect},
     {'t', "threads", "N", CLI_FORM_REQUIRED, machine, "draw with N threads (default: one a core)",

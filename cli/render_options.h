@@ -26,9 +26,10 @@ typedef struct CliRenderOptions {
     int crop_x, crop_y, crop_width, crop_height; /* crop_width 0: the whole picture */
     int samples;                                 /* 0: the scene's */
     unsigned layers;                             /* a set of CliLayerKind */
+    GlintMistakes mistakes;
     CliStatsFormat stats;
-    bool quiet, list_isa;
+    bool quiet, list_isa, list_mistakes;
 } CliRenderOptions;
 
-enum { CLI_RENDER_OPTION_COUNT = 11 };
+enum { CLI_RENDER_OPTION_COUNT = 12 };
 extern const CliOption cli_render_option_table[CLI_RENDER_OPTION_COUNT];

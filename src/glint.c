@@ -12,6 +12,7 @@
 #include "image/image.h"
 #include "port/machine.h"
 #include "reader/reader.h"
+#include "render/broken.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -63,6 +64,7 @@ GlintStatus glint_scene_create(const GlintSceneDesc *desc, GlintScene **result, 
     scene->diagnostic = desc->diagnostic;
     scene->diagnostic_user = desc->diagnostic_user;
     scene->keeps_sources = desc->keep_sources;
+    scene->reverses_transforms = desc->reverse_transforms;
     scene->stats.isa = kernel->name;
     if (!gi_scene_init(&scene->model, &scene->memory)) {
         glint_scene_destroy(scene);
@@ -205,6 +207,7 @@ GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, G
         model->dialect =
             scene->dialect != GLINT_DIALECT_AUTO ? scene->dialect : GLINT_DIALECT_GLINT;
     }
+    model->reverse_transforms = scene->reverses_transforms;
     double start = gi_machine_seconds();
     GlintStatus status = need_workers(scene, build_jobs(model), error);
     if (status == GLINT_OK) {
@@ -285,8 +288,11 @@ static GlintStatus plan_render(GlintScene *scene, const GlintRenderDesc *desc, G
     if (desc->light < -1 || desc->light > (int)scene->model.lights.count) {
         return ARGUMENT(error, "there is no such light");
     }
+    fault = gi_mistake_check(&desc->mistakes, (int)scene->model.lights.count);
+    if (fault != NULL) return ARGUMENT(error, "%s", fault);
+    int samples = desc->samples != 0 ? desc->samples : scene->model.samples;
     *target = (GiRenderTarget){
-        .samples = desc->samples != 0 ? desc->samples : scene->model.samples,
+        .samples = GI_MISTAKE_HAS(&desc->mistakes, ONE_SAMPLE) ? 1 : samples,
         .depth = desc->depth,
         .normal = desc->normal,
         .albedo = desc->albedo,
@@ -299,17 +305,42 @@ static GlintStatus plan_render(GlintScene *scene, const GlintRenderDesc *desc, G
     return need_workers(scene, across * down, error);
 }
 
-static GlintStatus render(GlintScene *scene, const GiRenderArea *area, const GlintMonitor *monitor,
-    const GiRenderTarget *target, GlintError *error) {
+static GlintStatus render(GlintScene *scene, const GiWorld *world, const GiRenderArea *area,
+    const GlintMonitor *monitor, const GiRenderTarget *target, GlintError *error) {
     double start = gi_machine_seconds();
     GiRenderCounts counts = {0};
-    GlintStatus status = gi_render(&scene->world, scene->pool, area, monitor, target, &counts);
+    GlintStatus status = gi_render(world, scene->pool, area, monitor, target, &counts);
     scene->stats.trace_seconds = gi_machine_seconds() - start;
     scene->stats.camera_rays = counts.camera_rays;
     scene->stats.shadow_rays = counts.shadow_rays;
     scene->stats.other_rays = counts.other_rays;
     return status == GLINT_OK ? status
                               : gi_error_set(error, status, "%s", glint_status_text(status));
+}
+
+/* With the mistakes of the desc: first those of the scene, then those of the finished picture. */
+static GlintStatus render_broken(GlintScene *scene, const GiRenderArea *area,
+    const GlintRenderDesc *desc, GiRenderTarget *target, GlintError *error) {
+    bool second = (desc->mistakes.set & GI_MISTAKES_OF_PICTURE) != 0;
+    size_t size = 3 * sizeof(float) * (size_t)area->crop_width * (size_t)area->crop_height;
+    float *pixels = target->color, *first = pixels;
+    GlintStatus status = GLINT_ERROR_MEMORY;
+    GiBroken *broken = gi_memory_allocate(&scene->memory, sizeof *broken);
+    if (second) first = gi_memory_allocate(&scene->memory, size);
+    if (broken != NULL && first != NULL &&
+        gi_broken_init(broken, &scene->world, &desc->mistakes, area)) {
+        target->color = first;
+        status = render(scene, &broken->world, area, desc->monitor, target, error);
+        gi_broken_reset(broken);
+    } else {
+        gi_error_memory(error);
+    }
+    if (status == GLINT_OK && second) {
+        gi_mistake_apply(&desc->mistakes, area->crop_width, area->crop_height, first, pixels);
+    }
+    if (second) gi_memory_free(&scene->memory, first, size);
+    gi_memory_free(&scene->memory, broken, sizeof *broken);
+    return status;
 }
 
 GlintStatus glint_render(
@@ -320,7 +351,8 @@ GlintStatus glint_render(
     GlintStatus status = plan_render(scene, desc, &area, &target, error);
     if (status != GLINT_OK) return status;
     target.color = pixels;
-    return render(scene, &area, desc->monitor, &target, error);
+    if (desc->mistakes.set != 0) return render_broken(scene, &area, desc, &target, error);
+    return render(scene, &scene->world, &area, desc->monitor, &target, error);
 }
 
 /* ---------------------------------------------------------------- render and save */
@@ -349,7 +381,9 @@ static GlintStatus save_meanwhile(GlintScene *scene, const GiRenderArea *area,
         .sink = gi_file_write,
         .user = file};
     GlintStatus status = gi_png_create(&scene->memory, &desc, &target->png, error);
-    if (status == GLINT_OK) status = render(scene, area, monitor, target, error);
+    if (status == GLINT_OK) {
+        status = render(scene, &scene->world, area, monitor, target, error);
+    }
     if (status == GLINT_OK) status = gi_png_finish(target->png, error);
     gi_png_destroy(target->png);
     if (status == GLINT_OK && save->monitor != NULL && save->monitor->progress != NULL) {
@@ -370,7 +404,7 @@ GlintStatus glint_render_save(GlintScene *scene, const GlintRenderDesc *desc, co
     if (status == GLINT_OK) status = glint_image_check_path(path, error);
     if (status != GLINT_OK) return status;
     GiFileWriter file;
-    if (gi_image_is_png(path) && save->layer_count == 0 &&
+    if (gi_image_is_png(path) && save->layer_count == 0 && desc->mistakes.set == 0 &&
         gi_file_write_begin_hidden(&file, path)) {
         return save_meanwhile(scene, &area, &target, desc->monitor, save, &file, error);
     }

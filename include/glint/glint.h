@@ -183,7 +183,9 @@ typedef struct GlintSceneDesc {
     void *diagnostic_user;
     bool keep_sources; /* false (default); true: glint_scene_source answers. The scene file then
                           stays in memory */
-    int cookie;        /* private */
+    bool reverse_transforms; /* false (default); true: GLINT_MISTAKE_TRANSFORMS_REVERSED, which is
+                                made when the scene is committed */
+    int cookie;              /* private */
 } GlintSceneDesc;
 
 GLINT_API GlintSceneDesc glint_scene_desc_default(void);
@@ -422,6 +424,94 @@ GLINT_API GlintStatus glint_scene_load_mesh(
 GLINT_API GlintStatus glint_scene_load_environment(
     GlintScene *scene, const char *path, double scale, GlintError *error);
 
+/* ---------------------------------------------------------------- mistakes */
+
+/* Typical mistakes of ray tracers that are being written. A scene can be drawn with them on purpose
+ * (GlintRenderDesc.mistakes), and glint_grade finds out whether a picture was drawn with one. Each:
+ * constant, name, what it is. docs/grade.md says more. Those of the camera, of what rays meet, of
+ * lights and of surfaces come first; from FLIPPED on they concern the finished picture alone. */
+#define GLINT_MISTAKE_LIST(X)                                                                      \
+    X(SHIFTED, "shifted", "the picture is shifted by half a pixel: rays miss the pixels' centres") \
+    X(PIXEL_SPAN, "pixel-span", "pixels are divided by width - 1, not by width")                   \
+    X(WINDOW_SWAPPED, "window-swapped", "viewWidth and viewHeight are exchanged")                  \
+    X(WINDOW_SQUARE, "window-square", "viewHeight is ignored: the window is a square")             \
+    X(WINDOW_PIXELS, "window-pixels", "viewHeight is ignored: the window has the pixels' shape")   \
+    X(VIEW_LENGTH, "view-length", "the view direction is not normalised")                          \
+    X(UP_LENGTH, "up-length", "the camera's right and up are not normalised")                      \
+    X(UP_SKEWED, "up-skewed", "viewUp is taken as it is, not at right angles to the view")         \
+    X(WINDOW_TILT, "window-tilt", "projNormal is ignored")                                         \
+    X(WINDOW_DISTANCE, "window-distance", "projDistance is ignored")                               \
+    X(FIRST_HIT, "first-hit", "not the nearest surface is seen, but the first of the file")        \
+    X(LAST_HIT, "last-hit", "not the nearest surface is seen, but the last of the file")           \
+    X(TRANSFORMS_REVERSED, "transforms-reversed", "a group's transforms act in reverse order")     \
+    X(NORMALS_MATRIX, "normals-matrix",                                                            \
+        "normals are transformed by the matrix, not by its inverse transpose")                     \
+    X(NORMALS_LENGTH, "normals-length", "normals are not normalised")                              \
+    X(NORMALS_INWARD, "normals-inward", "normals point inward")                                    \
+    X(NORMALS_FACING, "normals-facing", "normals are turned toward the viewer")                    \
+    X(NORMALS_FLAT, "normals-flat", "the vertex normals of meshes are ignored")                    \
+    X(NO_SHADOWS, "no-shadows", "shadows are missing")                                             \
+    X(SHADOW_ACNE, "shadow-acne",                                                                  \
+        "shadow rays start without an epsilon: surfaces shadow themselves")                        \
+    X(SHADOW_BEYOND, "shadow-beyond", "surfaces behind the light cast shadows")                    \
+    X(SHADOW_REVERSED, "shadow-reversed", "shadow rays run away from the light")                   \
+    X(LIGHT_MISSING, "light-missing", "a light is missing")                                        \
+    X(LAST_LIGHT, "last-light", "only the last light counts")                                      \
+    X(NO_AMBIENT, "no-ambient", "ambient light is missing")                                        \
+    X(NO_FALLOFF, "no-falloff", "light does not fall off with the distance")                       \
+    X(FALLOFF, "falloff", "light falls off with the square of the distance, and should not")       \
+    X(FALLOFF_LINEAR, "falloff-linear", "light falls off with the distance, not with its square")  \
+    X(DIFFUSE_PI, "diffuse-pi",                                                                    \
+        "the diffuse colour has a factor 1/pi, or has none, against the year")                     \
+    X(DIFFUSE_BEHIND, "diffuse-behind", "surfaces are lit from behind: |n.l| for max(0, n.l)")     \
+    X(NO_SPECULAR, "no-specular", "highlights are missing")                                        \
+    X(SPECULAR_BEHIND, "specular-behind",                                                          \
+        "highlights are not limited to lit sides: |n.h|, any n.l")                                 \
+    X(SPECULAR_COSINE, "specular-cosine",                                                          \
+        "highlights have a factor n.l, or have none, against the year")                            \
+    X(REFLECTED_HIGHLIGHT, "reflected-highlight", "highlights use r.v (Phong), not n.h (Blinn)")   \
+    X(NO_RECURSION, "no-recursion", "mirrors, glass and paths send no rays on")                    \
+    X(TEXTURE_FLIPPED, "texture-flipped", "textures are upside down")                              \
+    X(NO_BACKGROUND, "no-background", "the background colour is missing")                          \
+    X(NO_EXPOSURE, "no-exposure", "the exposure is ignored")                                       \
+    X(ONE_SAMPLE, "one-sample", "only one sample a pixel is drawn")                                \
+    X(FLIPPED, "flipped", "the picture is upside down")                                            \
+    X(MIRRORED, "mirrored", "left and right are exchanged")                                        \
+    X(TRANSPOSED, "transposed", "rows and columns are exchanged (square pictures)")                \
+    X(BGR, "bgr", "red and blue are exchanged")                                                    \
+    X(BRIGHTNESS, "brightness", "all light has a wrong factor")                                    \
+    X(GAMMA_MISSING, "gamma-missing", "gamma is missing: linear values were written")              \
+    X(GAMMA_TWICE, "gamma-twice", "gamma is applied twice")                                        \
+    X(SRGB, "srgb", "the sRGB curve is used, not the power 2.2")                                   \
+    X(TRUNCATED, "truncated", "values are cut, not rounded, to 8 bits")                            \
+    X(WRAPPED, "wrapped", "values beyond 255 begin again at 0, and are not clamped")
+
+typedef enum GlintMistake {
+#define GLINT_MISTAKE_ENUM(constant, name, text) GLINT_MISTAKE_##constant,
+    GLINT_MISTAKE_LIST(GLINT_MISTAKE_ENUM)
+#undef GLINT_MISTAKE_ENUM
+        GLINT_MISTAKE_COUNT
+} GlintMistake;
+
+/* The bit of a mistake in a set. */
+#define GLINT_MISTAKE_BIT(mistake) (UINT64_C(1) << (mistake))
+
+/* Mistakes to make together, and how far they go. All zero: none. */
+typedef struct GlintMistakes {
+    uint64_t set;         /* of GLINT_MISTAKE_BIT */
+    int light;            /* LIGHT_MISSING: which, from 1 in the order of the scene; 0: the first */
+    int shift_x, shift_y; /* SHIFTED: half pixels that the picture moves to the right and down, -4
+                             to 4; both 0: 1 and -1, as when rays pass the pixels' lower left
+                             corners */
+    double factor;        /* BRIGHTNESS; 0: 1/2 */
+} GlintMistakes;
+
+/* The name used in options ("no-shadows"), and what it is in a sentence. Null out of range. */
+GLINT_API const char *glint_mistake_name(GlintMistake mistake);
+GLINT_API const char *glint_mistake_text(GlintMistake mistake);
+/* The opposite. False, and *mistake untouched, when there is no such name. */
+GLINT_API bool glint_mistake_from_name(const char *name, GlintMistake *mistake);
+
 /* ---------------------------------------------------------------- commit, render, trace */
 
 /* Builds the tree. After it the scene is immutable and may be traced from many threads at once.
@@ -464,6 +554,10 @@ typedef struct GlintRenderDesc {
     uint32_t *surface; /* GlintSurfaceId of the first sample's surface; 0: none */
     GlintSampling sampling;      /* SOBOL */
     const GlintMonitor *monitor; /* null */
+    /* To draw wrongly on purpose; none (default). Those of the finished picture change colours
+     * only, not depth and the like, and count from the corner of the part that is drawn.
+     * TRANSFORMS_REVERSED is asked of the scene's desc, and ignored here. */
+    GlintMistakes mistakes;
     int cookie;
 } GlintRenderDesc;
 

@@ -236,6 +236,7 @@ static GiVec texture_color(const GiWorld *world, const Met *met, GiVec point, ui
     const GiTexture *texture = &world->scene->textures.data[index];
     double uv[2];
     gi_shape_texcoord(&world->shapes, met->shape, met->instance, point, uv);
+    if (world->rules->texture_flipped) uv[1] = 1 - uv[1];
     return gi_texture_color(
         &world->scene->pictures.data[texture->picture], texture->wrap, uv[0], uv[1]);
 }
@@ -379,7 +380,8 @@ static void meet_shader(
     const GiBundle *bundle = &scratch->bundle;
     const GiShader *shader = &stage->world->scene->shaders.data[shader_index];
     bool plain = is_plain(stage->world, shader);
-    bool dark = plain && shader->type != GLINT_SHADER_RGB_NORMALS && scratch->seen == NULL;
+    bool dark = plain && shader->type != GLINT_SHADER_RGB_NORMALS && scratch->seen == NULL &&
+                stage->world->shapes.normal_faults == 0;
     uint32_t rays[KINDS][GI_BUNDLE_SIZE];
     int count[KINDS] = {0};
     for (uint32_t i = first; i != GI_NONE; i = next[i]) {
