@@ -124,6 +124,7 @@ static CliStatus choose_verb(CliArguments *arguments, Cursor *cursor) {
     if (verb != NULL) {
         arguments->verb = verb;
         arguments->named = true;
+        cli_message_set_verb(verb->name);
         cursor->index++;
         return CLI_OK;
     }

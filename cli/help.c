@@ -26,6 +26,14 @@ static void option_text(const CliOption *option, char *buffer, size_t size) {
     }
 }
 
+static bool has_option(const CliVerb *verb, const char *long_name) {
+    const CliOption *option;
+    for (int i = 0; (option = cli_verb_option_at(verb, i)) != NULL; i++) {
+        if (strcmp(option->long_name, long_name) == 0) return true;
+    }
+    return false;
+}
+
 static void print_dialects(const char *between) {
     for (int i = 0; i < GLINT_DIALECT_COUNT; i++) {
         printf("%s%s", i > 0 ? between : "", glint_dialect_name((GlintDialect)i));
@@ -62,9 +70,13 @@ static void print_options(const CliVerb *verb) {
 static void print_screen(const CliVerb *verb) {
     printf("usage: glint %s [OPTIONS] %s\n\n%s\n", verb->name, verb->operands, verb->about);
     print_options(verb);
-    printf("\nDialects: ");
-    print_dialects(" ");
-    printf("\n%s\n", exit_status);
+    putchar('\n');
+    if (has_option(verb, "dialect")) {
+        printf("Dialects: ");
+        print_dialects(" ");
+        putchar('\n');
+    }
+    puts(exit_status);
     if (verb->notes != NULL) printf("\n%s\n", verb->notes);
     printf("\nExample: %s\n  %s\n", verb->example_text, verb->example);
 }

@@ -101,6 +101,13 @@ static GlintStatus save_apart(const CliLayers *layers, const CliLayer *layer,
     float *triples = NULL;
     GlintImage part = *image;
     part.pixels = layer->pixels;
+    GlintSaveDesc own = *desc;
+    GlintRecipe recipe;
+    if (desc->recipe != NULL) {
+        recipe = *desc->recipe;
+        recipe.light = layer->light;
+        own.recipe = &recipe;
+    }
     if (strlen(layer->components) == 1) {
         part.pixels = triples = malloc(layers->pixel_count * 3 * sizeof(float));
         for (size_t i = 0; triples != NULL && i < layers->pixel_count; i++) {
@@ -111,7 +118,7 @@ static GlintStatus save_apart(const CliLayers *layers, const CliLayer *layer,
     if (name != NULL && part.pixels != NULL) {
         sprintf(name, "%.*s.%s%s", (int)(ending - path), path, layer->name,
             layer->light != 0 ? ending : ".pfm");
-        status = glint_image_save(&part, name, desc, error);
+        status = glint_image_save(&part, name, &own, error);
     }
     free(triples);
     free(name);

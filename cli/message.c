@@ -16,6 +16,10 @@
 #define GREEN "\033[1;32m"
 #define PLAIN "\033[0m"
 
+static const char *named_verb = "";
+
+void cli_message_set_verb(const char *name) { named_verb = name != NULL ? name : ""; }
+
 bool cli_message_on_terminal(void) {
     const char *terminal = getenv("TERM");
     return isatty(STDERR_FILENO) && terminal != NULL && strcmp(terminal, "dumb") != 0;
@@ -45,7 +49,7 @@ CliStatus cli_message_usage(const char *format, ...) {
     va_start(arguments, format);
     say(format, arguments);
     va_end(arguments);
-    fputs("try 'glint --help'\n", stderr);
+    fprintf(stderr, "try 'glint %s%s--help'\n", named_verb, named_verb[0] != '\0' ? " " : "");
     return CLI_USAGE;
 }
 

@@ -19,6 +19,9 @@ bool cli_message_on_terminal(void);
 /* "glint: message" */
 CLI_PRINTF(1, 2) void cli_message_error(const char *format, ...);
 
+/* Which verb the command line names: where usage messages point to; null: none. */
+void cli_message_set_verb(const char *name);
+
 /* The same, then where to find help. Returns CLI_USAGE. */
 CLI_PRINTF(1, 2) CliStatus cli_message_usage(const char *format, ...);
 

@@ -66,13 +66,16 @@ static CliStatus choose_area(Drawing *drawing) {
     GlintSceneInfo info;
     glint_scene_info(drawing->file.scene, &info);
     CliStats *stats = &drawing->stats;
-    stats->width = options->width > 0 ? options->width : info.width;
-    stats->height = options->height > 0 ? options->height : info.height;
-    bool crop = options->crop_width > 0;
-    stats->crop_x = crop ? options->crop_x : 0;
-    stats->crop_y = crop ? options->crop_y : 0;
-    stats->crop_width = crop ? options->crop_width : stats->width;
-    stats->crop_height = crop ? options->crop_height : stats->height;
+    /* Of a picture drawn anew, its recipe stands for the options that are not given. */
+    const GlintRecipe *recipe = drawing->file.recipe;
+    bool sized = options->width > 0, crop = options->crop_width > 0;
+    bool again = recipe != NULL && !sized && !crop;
+    stats->width = sized ? options->width : recipe != NULL ? recipe->width : info.width;
+    stats->height = sized ? options->height : recipe != NULL ? recipe->height : info.height;
+    stats->crop_x = crop ? options->crop_x : again ? recipe->crop_x : 0;
+    stats->crop_y = crop ? options->crop_y : again ? recipe->crop_y : 0;
+    stats->crop_width = crop ? options->crop_width : again ? recipe->crop_width : stats->width;
+    stats->crop_height = crop ? options->crop_height : again ? recipe->crop_height : stats->height;
     if ((int64_t)stats->crop_x + stats->crop_width > stats->width ||
         (int64_t)stats->crop_y + stats->crop_height > stats->height) {
         cli_progress_clear(&drawing->file.progress);
@@ -81,14 +84,20 @@ static CliStatus choose_area(Drawing *drawing) {
             stats->height, cli_job_name(drawing->file.job));
     }
     drawing->area = glint_render_desc_default();
-    drawing->area.width = options->width;
-    drawing->area.height = options->height;
+    drawing->area.width = stats->width;
+    drawing->area.height = stats->height;
     drawing->area.samples = options->samples;
+    if (recipe != NULL) {
+        if (options->samples == 0) drawing->area.samples = recipe->samples;
+        drawing->area.light = recipe->light;
+        drawing->area.sampling = recipe->sampling;
+    }
     drawing->area.crop_x = stats->crop_x;
     drawing->area.crop_y = stats->crop_y;
-    drawing->area.crop_width = crop ? stats->crop_width : 0;
-    drawing->area.crop_height = crop ? stats->crop_height : 0;
-    drawing->area.mistakes = drawing->options->mistakes;
+    drawing->area.crop_width = stats->crop_width;
+    drawing->area.crop_height = stats->crop_height;
+    drawing->area.mistakes = options->mistakes;
+    if (recipe != NULL && options->mistakes.set == 0) drawing->area.mistakes = recipe->mistakes;
     drawing->area.monitor = &drawing->file.monitor;
     return CLI_OK;
 }
@@ -147,6 +156,49 @@ static GlintStatus draw_plain(Drawing *drawing, const GlintSaveDesc *desc) {
     return status;
 }
 
+/* The scene's name: of a picture drawn anew, that of the scene inside. */
+static const char *title_of(const CliSceneFile *file) {
+    return cli_path_base(
+        file->recipe != NULL ? file->recipe->files[0].name : cli_job_name(file->job));
+}
+
+static GlintStatus draw_and_save(Drawing *drawing) {
+    CliSceneFile *file = &drawing->file;
+    GlintRecipe *recipe = NULL, own;
+    GlintRecipeFile *files = NULL;
+    GlintStatus status = glint_scene_recipe(
+        file->scene, &drawing->area, drawing->options->embed, &recipe, &file->error);
+    if (status != GLINT_OK) return status;
+    const char *bad = drawing->options->embed ? cli_unpack_bad_name(recipe) : NULL;
+    if (bad != NULL) {
+        snprintf(file->error.message, sizeof file->error.message,
+            "--embed needs names that are not absolute, and the scene names '%s'", bad);
+        glint_recipe_destroy(recipe);
+        return GLINT_ERROR_SCENE;
+    }
+    GlintSaveDesc save = glint_save_desc_default();
+    save.title = title_of(file);
+    save.thread_count = drawing->options->thread_count;
+    save.monitor = &file->monitor;
+    save.recipe = recipe;
+    if (file->recipe != NULL) {
+        /* The scene inside was unpacked to a place that is soon gone. */
+        own = *recipe;
+        files = malloc((size_t)own.file_count * sizeof *files);
+        if (files != NULL) {
+            memcpy(files, own.files, (size_t)own.file_count * sizeof *files);
+            files[0].name = file->recipe->files[0].name;
+            own.files = files;
+            save.recipe = &own;
+        }
+    }
+    status =
+        drawing->options->layers == 0 ? draw_plain(drawing, &save) : draw_layers(drawing, &save);
+    free(files);
+    glint_recipe_destroy(recipe);
+    return status;
+}
+
 static CliStatus draw(Drawing *drawing) {
     CliStatus refused = check_picture(drawing);
     if (refused != CLI_OK) return refused;
@@ -155,20 +207,15 @@ static CliStatus draw(Drawing *drawing) {
     desc.dialect = drawing->options->dialect;
     desc.thread_count = drawing->options->thread_count;
     desc.isa = drawing->options->isa;
-    desc.reverse_transforms =
-        drawing->options->mistakes.set & GLINT_MISTAKE_BIT(GLINT_MISTAKE_TRANSFORMS_REVERSED);
+    desc.reverse_transforms = cli_scene_file_reverses(&drawing->options->mistakes);
+    desc.keep_sources = drawing->options->embed;
     refused = cli_scene_file_load(&drawing->file, &desc);
     if (refused != CLI_OK) return refused;
     refused = choose_area(drawing);
     if (refused != CLI_OK) return refused;
     refused = cli_scene_file_commit(&drawing->file);
     if (refused != CLI_OK) return refused;
-    GlintSaveDesc save = glint_save_desc_default();
-    save.title = cli_path_base(cli_job_name(drawing->file.job));
-    save.thread_count = drawing->options->thread_count;
-    save.monitor = &drawing->file.monitor;
-    GlintStatus status =
-        drawing->options->layers == 0 ? draw_plain(drawing, &save) : draw_layers(drawing, &save);
+    GlintStatus status = draw_and_save(drawing);
     if (status == GLINT_OK) return CLI_OK;
     if (status == GLINT_ERROR_FILE && drawing->file.error.path[0] == '\0') {
         snprintf(drawing->file.error.path, sizeof drawing->file.error.path, "%s",

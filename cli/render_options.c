@@ -73,6 +73,13 @@ static CliStatus set_break(void *values, const char *value) {
     return options->list_mistakes ? CLI_OK : cli_value_mistakes("break", value, &options->mistakes);
 }
 
+static CliStatus set_embed(void *values, const char *value) {
+    CliRenderOptions *options = values;
+    (void)value;
+    options->embed = true;
+    return CLI_OK;
+}
+
 static CliStatus set_dialect(void *values, const char *value) {
     CliRenderOptions *options = values;
     return cli_value_dialect(value, &options->dialect);
@@ -131,6 +138,8 @@ const CliOption cli_render_option_table[CLI_RENDER_OPTION_COUNT] = {
         "add depth, normal, albedo, surface, lights, or all", set_layers},
     {0, "break", "A,B", CLI_FORM_REQUIRED, picture,
         "draw with typical mistakes; --break list names them", set_break},
+    {0, "embed", NULL, CLI_FORM_NONE, picture, "put the scene and its files into the PNG",
+        set_embed},
     {0, "dialect", "NAME", CLI_FORM_REQUIRED, picture, "follow the rules of a year (see below)",
         set_dialect},
     {'t', "threads", "N", CLI_FORM_REQUIRED, machine, "draw with N threads (default: one a core)",

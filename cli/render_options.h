@@ -29,7 +29,8 @@ typedef struct CliRenderOptions {
     GlintMistakes mistakes;
     CliStatsFormat stats;
     bool quiet, list_isa, list_mistakes;
+    bool embed; /* the scene and its files into the PNG */
 } CliRenderOptions;
 
-enum { CLI_RENDER_OPTION_COUNT = 12 };
+enum { CLI_RENDER_OPTION_COUNT = 13 };
 extern const CliOption cli_render_option_table[CLI_RENDER_OPTION_COUNT];

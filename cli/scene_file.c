@@ -96,8 +96,30 @@ void cli_scene_file_begin(
     cli_progress_begin(&file->progress, with_progress, cli_job_name(job), index, count);
 }
 
+/* Finds the scene inside of a picture. */
+static CliStatus open_picture(CliSceneFile *file) {
+    const char *path = file->job->scene;
+    GlintStatus status = glint_recipe_load(path, &file->recipe, &file->error);
+    if (status != GLINT_OK) return cli_scene_file_fail(file, status, CLI_INPUT);
+    if (cli_unpack_is_embedded(file->recipe)) {
+        return cli_unpack(&file->unpacked, file->recipe, path);
+    }
+    snprintf(file->error.path, sizeof file->error.path, "%s", path);
+    snprintf(file->error.message, sizeof file->error.message,
+        "this picture has no scene inside: it was drawn without --embed");
+    return cli_scene_file_fail(file, GLINT_ERROR_FILE, CLI_INPUT);
+}
+
 CliStatus cli_scene_file_load(CliSceneFile *file, const GlintSceneDesc *desc) {
     GlintSceneDesc own = *desc;
+    const char *path = file->job->scene;
+    if (!cli_job_reads_standard_input(file->job) && cli_unpack_is_picture(path)) {
+        CliStatus opened = open_picture(file);
+        if (opened != CLI_OK) return opened;
+        path = file->unpacked.scene;
+        if (own.dialect == GLINT_DIALECT_AUTO) own.dialect = file->recipe->dialect;
+        if (cli_scene_file_reverses(&file->recipe->mistakes)) own.reverse_transforms = true;
+    }
     own.diagnostic = on_diagnostic;
     own.diagnostic_user = file;
     GlintStatus status = glint_scene_create(&own, &file->scene, &file->error);
@@ -106,7 +128,7 @@ CliStatus cli_scene_file_load(CliSceneFile *file, const GlintSceneDesc *desc) {
         status = glint_scene_load_stream(
             file->scene, on_read, file, cli_job_name(file->job), &file->monitor, &file->error);
     } else {
-        status = glint_scene_load_file(file->scene, file->job->scene, &file->monitor, &file->error);
+        status = glint_scene_load_file(file->scene, path, &file->monitor, &file->error);
     }
     return status == GLINT_OK ? CLI_OK : cli_scene_file_fail(file, status, CLI_INPUT);
 }
@@ -120,4 +142,7 @@ void cli_scene_file_end(CliSceneFile *file) {
     cli_progress_clear(&file->progress);
     glint_scene_destroy(file->scene);
     file->scene = NULL;
+    glint_recipe_destroy(file->recipe);
+    file->recipe = NULL;
+    cli_unpack_remove(&file->unpacked);
 }

@@ -5,6 +5,7 @@
 
 #include "inputs.h"
 #include "progress.h"
+#include "unpack.h"
 
 typedef struct CliSceneFile {
     const CliJob *job;
@@ -13,6 +14,9 @@ typedef struct CliSceneFile {
     CliProgress progress;
     GlintError error;               /* of the call that failed */
     int error_count, warning_count; /* findings shown so far */
+    /* Of a job that is a picture: how it was drawn, and the scene that it contains. */
+    GlintRecipe *recipe;
+    CliUnpacked unpacked;
     /* Where findings go; null: shown on standard error. */
     GlintDiagnosticFn diagnostic;
     void *diagnostic_user;
@@ -22,8 +26,14 @@ typedef struct CliSceneFile {
 void cli_scene_file_begin(
     CliSceneFile *file, const CliJob *job, int index, int count, bool with_progress);
 
-/* Creates the scene and loads it. desc: glint_scene_desc_default, with what the verb has changed;
- * its diagnostic is set here. Reports what is wrong. */
+/* Whether these mistakes are to be made by a scene's desc.reverse_transforms. */
+static inline bool cli_scene_file_reverses(const GlintMistakes *mistakes) {
+    return (mistakes->set & GLINT_MISTAKE_BIT(GLINT_MISTAKE_TRANSFORMS_REVERSED)) != 0;
+}
+
+/* Creates the scene and loads it; of a picture, the scene inside, under the dialect of its recipe
+ * if desc asks for none. desc: glint_scene_desc_default, with what the verb has changed; its
+ * diagnostic is set here. Reports what is wrong. */
 CliStatus cli_scene_file_load(CliSceneFile *file, const GlintSceneDesc *desc);
 
 /* Commits it. */

@@ -104,39 +104,25 @@ CliStatus cli_value_size(const char *option, const char *value, int *width, int 
         option, value);
 }
 
-static CliStatus refuse_mistake(const char *option, const char *word) {
+CliStatus cli_value_mistakes(const char *option, const char *value, GlintMistakes *mistakes) {
+    const char *wrong;
+    if (glint_mistakes_parse(value, mistakes, &wrong)) return CLI_OK;
+    char word[32];
+    GlintMistake known;
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(wrong, ",="), wrong);
+    if (glint_mistake_from_name(word, &known)) {
+        return cli_message_usage(
+            "--%s: what follows '%s' is not understood in '%s'", option, word, wrong);
+    }
     CliSuggestion suggestion;
     cli_suggestion_begin(&suggestion, word);
     for (int i = 0; i < GLINT_MISTAKE_COUNT; i++) {
         cli_suggestion_add(&suggestion, glint_mistake_name((GlintMistake)i));
     }
-    if (suggestion.best != NULL) {
+    if (suggestion.best == NULL) {
         return cli_message_usage(
-            "--%s knows no mistake '%s'; did you mean '%s'?", option, word, suggestion.best);
+            "--%s knows no mistake '%s'; --%s list names them", option, word, option);
     }
     return cli_message_usage(
-        "--%s knows no mistake '%s'; --%s list names them", option, word, option);
-}
-
-CliStatus cli_value_mistakes(const char *option, const char *value, GlintMistakes *mistakes) {
-    enum { LIGHT_LIMIT = 1000000 };
-    for (const char *name = value;; name++) {
-        char word[32];
-        size_t size = strcspn(name, ",=");
-        GlintMistake mistake;
-        snprintf(word, sizeof word, "%.*s", (int)size, name);
-        if (!glint_mistake_from_name(word, &mistake)) return refuse_mistake(option, word);
-        mistakes->set |= GLINT_MISTAKE_BIT(mistake);
-        name += size;
-        if (*name == '=') {
-            name++;
-            if (mistake != GLINT_MISTAKE_LIGHT_MISSING ||
-                !cli_value_digits(&name, 1, LIGHT_LIMIT, &mistakes->light)) {
-                return cli_message_usage(
-                    "--%s: only light-missing=N takes a number, that of a light", option);
-            }
-        }
-        if (*name == '\0') return CLI_OK;
-        if (*name != ',') return cli_message_usage("--%s takes names, not '%s'", option, value);
-    }
+        "--%s knows no mistake '%s'; did you mean '%s'?", option, word, suggestion.best);
 }

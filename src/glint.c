@@ -228,6 +228,19 @@ GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, G
     return GLINT_OK;
 }
 
+bool glint_scene_file(const GlintScene *scene, int index, GlintSceneFile *file) {
+    GI_ASSERT(scene != NULL && file != NULL && index >= 0);
+    const GiScene *model = &scene->model;
+    if ((size_t)index >= model->files.count) return false;
+    const GiSceneFile *found = &model->files.data[index];
+    *file = (GlintSceneFile){.kind = found->kind,
+        .name = model->file_names.data + found->name,
+        .path = model->file_names.data + found->path,
+        .size = found->size,
+        .digest = found->digest};
+    return true;
+}
+
 bool glint_scene_source(
     GlintScene *scene, GlintObjectKind kind, uint32_t index1, GlintSource *source) {
     GI_ASSERT(scene != NULL && source != NULL && (unsigned)kind < GLINT_OBJECT_KIND_COUNT);
@@ -372,12 +385,12 @@ static GlintStatus save_afterwards(GlintScene *scene, const GiRenderArea *area,
 /* The PNG grows with the picture, in a file that shows only when it is whole. */
 static GlintStatus save_meanwhile(GlintScene *scene, const GiRenderArea *area,
     GiRenderTarget *target, const GlintMonitor *monitor, const GlintSaveDesc *save,
-    GiFileWriter *file, GlintError *error) {
+    const GiPngExtras *extras, GiFileWriter *file, GlintError *error) {
     const GiPngDesc desc = {.width = area->crop_width,
         .height = area->crop_height,
         .worker_count = gi_pool_worker_count(scene->pool),
         .gamma = scene->kernel->encode,
-        .title = save->title,
+        .extras = *extras,
         .sink = gi_file_write,
         .user = file};
     GlintStatus status = gi_png_create(&scene->memory, &desc, &target->png, error);
@@ -395,6 +408,26 @@ static GlintStatus save_meanwhile(GlintScene *scene, const GiRenderArea *area,
     return status;
 }
 
+static GlintStatus save_png(GlintScene *scene, const GiRenderArea *area, GiRenderTarget *target,
+    const GlintRenderDesc *desc, const char *path, const GlintSaveDesc *save, GlintError *error) {
+    GiFileWriter file;
+    if (save->layer_count > 0 || desc->mistakes.set != 0 ||
+        !gi_file_write_begin_hidden(&file, path)) {
+        return save_afterwards(scene, area, desc, path, save, error);
+    }
+    GiImageExtras extras;
+    GlintStatus status;
+    if (gi_image_make_extras(&scene->memory, save, &extras)) {
+        status =
+            save_meanwhile(scene, area, target, desc->monitor, save, &extras.extras, &file, error);
+    } else {
+        gi_file_write_abandon(&file);
+        status = gi_error_memory(error);
+    }
+    gi_image_free_extras(&scene->memory, &extras);
+    return status;
+}
+
 GlintStatus glint_render_save(GlintScene *scene, const GlintRenderDesc *desc, const char *path,
     const GlintSaveDesc *save, GlintError *error) {
     GiRenderArea area;
@@ -403,12 +436,14 @@ GlintStatus glint_render_save(GlintScene *scene, const GlintRenderDesc *desc, co
     if (status == GLINT_OK) status = gi_image_check_desc(save, error);
     if (status == GLINT_OK) status = glint_image_check_path(path, error);
     if (status != GLINT_OK) return status;
-    GiFileWriter file;
-    if (gi_image_is_png(path) && save->layer_count == 0 && desc->mistakes.set == 0 &&
-        gi_file_write_begin_hidden(&file, path)) {
-        return save_meanwhile(scene, &area, &target, desc->monitor, save, &file, error);
-    }
-    return save_afterwards(scene, &area, desc, path, save, error);
+    if (!gi_image_is_png(path)) return save_afterwards(scene, &area, desc, path, save, error);
+    GlintRecipe *made = NULL;
+    GlintSaveDesc own = *save;
+    if (save->recipe == NULL) status = glint_scene_recipe(scene, desc, false, &made, error);
+    if (made != NULL) own.recipe = made;
+    if (status == GLINT_OK) status = save_png(scene, &area, &target, desc, path, &own, error);
+    glint_recipe_destroy(made);
+    return status;
 }
 
 /* ---------------------------------------------------------------- single rays */

@@ -34,6 +34,7 @@ render: mistake sample light texture shade camera kernel accel image sched scene
 glint.c: $all glint_scene.h
 glint_build.c: $all glint_scene.h
 glint_grade.c: $all glint_scene.h
+glint_recipe.c: $all glint_scene.h
 glint_scene.h: $all
 "
 

@@ -71,6 +71,13 @@ prefix=$(dirname "$(find "$dir/root" -type d -name include | head -n 1)")
 check "the header" test -f "$prefix/include/glint/glint.h"
 check "the program" "$prefix/bin/glint" --version
 check "the manual" test -s "$prefix/share/man/man1/glint.1"
+for verb in $("$prefix/bin/glint" --help | sed -n 's/^  \([a-z]*\) .*/\1/p' | grep -v '^glint$'); do
+    check "the manual of $verb" test -s "$prefix/share/man/man1/glint-$verb.1"
+done
+for script in bash-completion/completions/glint zsh/site-functions/_glint \
+    fish/vendor_completions.d/glint.fish; do
+    check "completion: $script" test -s "$prefix/share/$script"
+done
 check "the shared library's name" test -e "$libdir/libglint.so.0"
 # What the build made of modules must be where the library will look for it.
 for module in "$build"/modules/*.so; do

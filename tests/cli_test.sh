@@ -5,48 +5,8 @@
 # Ends with "N passed, N failed".
 set -u
 
-[ $# -eq 1 ] || { echo "usage: $0 PATH/TO/glint" >&2; exit 2; }
-glint=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
-python=/usr/bin/python3
-[ -x "$python" ] || python=python3
-dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
-trap 'exit 130' INT TERM
-cd "$dir" || exit 3
+. "$(dirname "$0")/cli.sh"
 
-passed=0
-failed=0
-skipped=0
-pass() { passed=$((passed + 1)); }
-fail() {
-    failed=$((failed + 1))
-    echo "FAIL cli: $*"
-    sed 's/^/  stdout: /' "$dir/out" | head -5
-    sed 's/^/  stderr: /' "$dir/err" | head -5
-}
-check() { # check WHAT COMMAND...: the command must succeed
-    what=$1
-    shift
-    if "$@"; then pass; else fail "$what"; fi
-}
-
-# run STATUS ARGUMENT...: runs glint and checks its exit status; the output is in out and err.
-run() {
-    expected=$1
-    shift
-    "$glint" "$@" >"$dir/out" 2>"$dir/err" </dev/null
-    status=$?
-    if [ $status -eq "$expected" ]; then
-        pass
-    else
-        fail "glint $*: status $status, not $expected"
-    fi
-}
-says() { check "standard error says: $1" grep -qF -e "$1" "$dir/err"; }
-silent() { check "$1: nothing on standard error" test ! -s "$dir/err"; }
-printed() {
-    if [ "$(cat "$dir/out")" = "$1" ]; then pass; else fail "standard output is not: $1"; fi
-}
 # pixels FILE "W H": the size that the PNG's header tells.
 pixels() {
     size=$("$python" -c 'import struct, sys
@@ -374,9 +334,4 @@ else
     echo "skip cli: this machine lends no terminals"
 fi
 
-if [ $skipped -eq 0 ]; then
-    echo "$passed passed, $failed failed"
-else
-    echo "$passed passed, $failed failed, $skipped skipped"
-fi
-[ $failed -eq 0 ]
+finish

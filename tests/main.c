@@ -24,6 +24,7 @@
     X(mesh) \
     X(ply) \
     X(reader) \
+    X(recipe) \
     X(malformed) \
     X(scan) \
     X(hit) \

@@ -3,6 +3,7 @@
 #include "test.h"
 
 #include "base/array.h"
+#include "base/digest.h"
 #include "base/error.h"
 #include "random.h"
 #include "sched/pool.h"
@@ -416,7 +417,19 @@ static void tasks_of_little_memory(void) {
     for (int w = 0; w < WORKER_COUNTS; w++) run_tasks(worker_counts[w], 12, 800, true);
 }
 
+/* The check value of CRC-64/XZ; any way of cutting the bytes; both ways of computing it. */
+static void digests(void) {
+    CHECK(gi_digest(0, "123456789", 9) == UINT64_C(0x995dc9bbdf1939fa));
+    static uint8_t bytes[5000];
+    for (size_t i = 0; i < sizeof bytes; i++) bytes[i] = (uint8_t)(i * i >> 3);
+    uint64_t whole = gi_digest_plain(0, bytes, sizeof bytes);
+    for (size_t cut = 0; cut <= sizeof bytes; cut += 97) {
+        uint64_t first = gi_digest(0, bytes, cut);
+        CHECK(gi_digest(first, bytes + cut, sizeof bytes - cut) == whole);
+    }
+}
+
 const GiTest tests_base[] = {TEST(memory_is_counted), TEST(memory_limit), TEST(memory_refused),
     TEST(memory_lines), TEST(sizes), TEST(memory_from_threads), TEST(arrays), TEST(errors),
     TEST(pool_covers), TEST(pool_many_loops), TEST(pool_nested), TEST(pool_of_little_memory),
-    TEST(tasks_beget_tasks), TEST(tasks_of_little_memory), TEST_END};
+    TEST(tasks_beget_tasks), TEST(tasks_of_little_memory), TEST(digests), TEST_END};

@@ -4,6 +4,7 @@
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "test_reader_input.h"
 
+#include "base/digest.h"
 #include "glint/glint.h"
 
 #include <errno.h>
@@ -72,6 +73,21 @@ static void places(void) {
     CHECK_INT(scene->mesh_surfaces.count, 5);
     CHECK_INT(scene->meshes.meshes.count, 2); /* by whatever path */
     CHECK_INT(scene->mesh_surfaces.data[4].mesh, 0);
+    /* The scene and its files, each once, under the name by which it was first called. */
+    CHECK_INT(scene->files.count, 3);
+    static const struct {
+        const char *name;
+        GlintFileKind kind;
+    } noted[] = {{"near.obj", GLINT_FILE_MESH}, {"../../meshes/far.obj", GLINT_FILE_MESH}};
+    for (size_t i = 0; i < 2; i++) {
+        const GiSceneFile *file = &scene->files.data[i + 1];
+        CHECK_TEXT(scene->file_names.data + file->name, noted[i].name);
+        CHECK_INT(file->kind, noted[i].kind);
+        CHECK_INT(file->size, sizeof triangle - 1);
+        CHECK(file->digest == gi_digest_plain(0, triangle, sizeof triangle - 1));
+    }
+    CHECK_INT(scene->files.data[0].kind, GLINT_FILE_SCENE);
+    CHECK(scene->files.data[0].size > 100 && scene->files.data[0].digest != 0);
     unload();
     char text[1000];
     snprintf(text, sizeof text, MESH("%s"), in_scratch("meshes/far.obj"));

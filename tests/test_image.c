@@ -474,8 +474,8 @@ static void png_allocator_fails(void) {
             Bytes bytes = {0};
             gi_memory_init(&memory, &allocator, 0);
             GlintError error = {0};
-            GlintStatus status =
-                gi_png_encode(&memory, &image, NULL, threads, NULL, collect, &bytes, &error);
+            GlintStatus status = gi_png_encode(
+                &memory, &image, &(GiPngExtras){0}, threads, NULL, collect, &bytes, &error);
             CHECK(status == GLINT_OK || status == GLINT_ERROR_MEMORY);
             CHECK_INT(error.status, status);
             CHECK_INT(rationed.blocks, 0);

@@ -47,7 +47,7 @@ static Bytes encode_in_pieces(const GlintImage *image, int side, int workers, ui
     GiPngDesc desc = {.width = image->width,
         .height = image->height,
         .worker_count = workers,
-        .title = "pieces",
+        .extras.title = "pieces",
         .sink = collect,
         .user = &bytes};
     Puzzle puzzle = {.image = image, .side = side, .columns = (image->width - 1) / side + 1};
@@ -107,17 +107,22 @@ static void same_as_afterwards(void) {
         Picture picture = picture_of_scene(scene, &desc);
         GlintImage image = {picture.width, picture.height, picture.pixels};
         static const char *const extensions[] = {"png", "pfm"};
+        GlintRecipe *recipe = NULL;
+        CHECK_INT(glint_scene_recipe(scene, &desc, false, &recipe, NULL), GLINT_OK);
         for (int i = 0; i < 2; i++) {
             char meanwhile[600], afterwards[600];
             snprintf(meanwhile, sizeof meanwhile, "%s/meanwhile.%s", folder, extensions[i]);
             snprintf(afterwards, sizeof afterwards, "%s/afterwards.%s", folder, extensions[i]);
+            save.recipe = recipe;
             CHECK_INT(glint_image_save(&image, afterwards, &save, NULL), GLINT_OK);
+            save.recipe = NULL; /* it makes the same one */
             CHECK_INT(glint_render_save(scene, &desc, meanwhile, &save, NULL), GLINT_OK);
             Bytes a = read_whole(meanwhile), b = read_whole(afterwards);
             CHECK(a.size > 0 && a.size == b.size && memcmp(a.data, b.data, a.size) == 0);
             free(a.data);
             free(b.data);
         }
+        glint_recipe_destroy(recipe);
         picture_free(&picture);
         glint_scene_destroy(scene);
     }

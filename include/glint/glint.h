@@ -237,6 +237,28 @@ typedef struct GlintSource {
 GLINT_API bool glint_scene_source(
     GlintScene *scene, GlintObjectKind kind, uint32_t index1, GlintSource *source);
 
+/* The files that a scene is made of. */
+typedef enum GlintFileKind {
+    GLINT_FILE_SCENE,
+    GLINT_FILE_MESH,
+    GLINT_FILE_TEXTURE,
+    GLINT_FILE_ENVIRONMENT
+} GlintFileKind;
+
+typedef struct GlintSceneFile {
+    GlintFileKind kind;
+    const char
+        *name; /* as the scene calls it; of the scene itself: as given to the load function */
+    const char *path; /* as it was opened; a stream's or memory's is its name */
+    uint64_t size;    /* bytes when it was read; 0 of what was no regular file */
+    uint64_t digest;  /* CRC-64/XZ of its content; 0 likewise */
+} GlintSceneFile;
+
+/* The scene's own file is the first (index 0), the others follow in the order in which they were
+ * loaded, each once; also after a load that failed, when these are the files that were found.
+ * False, and *file untouched, behind the last. The strings live as long as the scene. */
+GLINT_API bool glint_scene_file(const GlintScene *scene, int index, GlintSceneFile *file);
+
 /* ---- by calls */
 
 /* How light is gathered; docs/scene-format.md, integrators. */
@@ -503,7 +525,7 @@ typedef struct GlintMistakes {
     int shift_x, shift_y; /* SHIFTED: half pixels that the picture moves to the right and down, -4
                              to 4; both 0: 1 and -1, as when rays pass the pixels' lower left
                              corners */
-    double factor;        /* BRIGHTNESS; 0: 1/2 */
+    double factor;        /* BRIGHTNESS, to nine digits after the point; 0: 1/2 */
 } GlintMistakes;
 
 /* The name used in options ("no-shadows"), and what it is in a sentence. Null out of range. */
@@ -511,6 +533,13 @@ GLINT_API const char *glint_mistake_name(GlintMistake mistake);
 GLINT_API const char *glint_mistake_text(GlintMistake mistake);
 /* The opposite. False, and *mistake untouched, when there is no such name. */
 GLINT_API bool glint_mistake_from_name(const char *name, GlintMistake *mistake);
+
+/* Mistakes as text: names with commas between them, and where it is not the usual, how far they go:
+ * "no-shadows,light-missing=2", "shifted=1:-1", "brightness=0.25". At most size bytes are written,
+ * always zero-terminated when size > 0; returns the length without the cut. */
+GLINT_API size_t glint_mistakes_format(const GlintMistakes *mistakes, char *buffer, size_t size);
+/* The opposite, added to *mistakes. False when it is not understood; *wrong is then where. */
+GLINT_API bool glint_mistakes_parse(const char *text, GlintMistakes *mistakes, const char **wrong);
 
 /* ---------------------------------------------------------------- commit, render, trace */
 
@@ -621,12 +650,36 @@ typedef struct GlintLayer {
     const float *pixels;    /* width * height * components, top row first */
 } GlintLayer;
 
+/* What it takes to draw a picture once more. */
+typedef struct GlintRecipeFile {
+    GlintFileKind kind;
+    const char *name; /* as in GlintSceneFile; characters below 32 are question marks */
+    uint64_t size, digest;
+    const void *bytes; /* the content; null when it is not embedded */
+} GlintRecipeFile;
+
+typedef struct GlintRecipe {
+    char version[32];     /* of the program that drew it */
+    GlintDialect dialect; /* the one in force */
+    int width, height;    /* of the whole picture; crop_... is the part that was drawn */
+    int crop_x, crop_y, crop_width, crop_height;
+    int samples, light; /* as in GlintRenderDesc */
+    GlintSampling sampling;
+    GlintMistakes mistakes;       /* with TRANSFORMS_REVERSED, which a scene's desc asks for */
+    bool has_pixels;              /* of a picture that was finished */
+    uint64_t pixels;              /* CRC-64/XZ of its 8-bit values, top row first */
+    const GlintRecipeFile *files; /* the scene's own first; none of a scene built by calls */
+    int file_count;
+} GlintRecipe;
+
 typedef struct GlintSaveDesc {
     const char *title; /* text "Title" of the file, normally the scene's name; null: none */
     int thread_count;  /* 0 (default): one per core */
     const GlintMonitor *monitor; /* null */
     const GlintLayer *layers;    /* null; refused unless the format is EXR */
     int layer_count;             /* 0 to 256 */
+    const GlintRecipe *recipe;   /* text "Glint" of a PNG, with the files that it embeds; null:
+                                  * none, but glint_render_save makes one without files */
     int cookie;
 } GlintSaveDesc;
 
@@ -639,7 +692,8 @@ GLINT_API GlintSaveDesc glint_save_desc_default(void);
 GLINT_API GlintStatus glint_image_save(
     const GlintImage *image, const char *path, const GlintSaveDesc *desc, GlintError *error);
 
-/* Draws and writes path: what glint_render and then glint_image_save would write, to the byte. A
+/* Draws and writes path: what glint_render, glint_scene_recipe without files (unless save has a
+ * recipe) and glint_image_save would write, to the byte. A
  * PNG is encoded while it is drawn, and its pixels need no memory beyond what is under way. Both
  * descs count, but for save's thread_count: the scene's threads do it. One call at a time per
  * scene. Errors: ARGUMENT, FILE, MEMORY, THREAD, CANCELLED (nothing is then written). */
@@ -655,6 +709,29 @@ GLINT_API GlintStatus glint_image_check_path(const char *path, GlintError *error
 typedef bool (*GlintSinkFn)(void *user, const void *bytes, size_t size);
 GLINT_API GlintStatus glint_image_encode_png(const GlintImage *image, const GlintSaveDesc *desc,
     GlintSinkFn sink, void *user, GlintError *error);
+
+/* The recipe of what glint_render would draw now, to be destroyed by the caller. with_files: with
+ * the content of the scene and of all files that it names, for which it must have been loaded with
+ * keep_sources. Errors: ARGUMENT, FILE (a file has changed since, or cannot be read), MEMORY. */
+GLINT_API GlintStatus glint_scene_recipe(const GlintScene *scene, const GlintRenderDesc *desc,
+    bool with_files, GlintRecipe **recipe, GlintError *error);
+
+/* The recipe in a PNG. Errors: ARGUMENT, FILE (also when there is none, or this version does not
+ * understand it), MEMORY. */
+GLINT_API GlintStatus glint_recipe_load(const char *path, GlintRecipe **recipe, GlintError *error);
+
+/* Null is allowed. */
+GLINT_API void glint_recipe_destroy(GlintRecipe *recipe);
+
+/* The recipe as the lines that stand in a PNG. Like snprintf: at most size bytes are written,
+ * zero-terminated when size > 0; returns the length without the cut. */
+GLINT_API size_t glint_recipe_format(const GlintRecipe *recipe, char *buffer, size_t size);
+
+/* CRC-64/XZ of the 8-bit values of a picture: of linear pixels as a PNG would hold them, and of a
+ * PNG or JPEG file as it is. Errors: ARGUMENT, FILE, MEMORY. */
+GLINT_API GlintStatus glint_image_digest(
+    const GlintImage *image, uint64_t *digest, GlintError *error);
+GLINT_API GlintStatus glint_picture_digest(const char *path, uint64_t *digest, GlintError *error);
 
 /* The 8-bit values that the PNG would hold: width * height * 3 bytes. */
 GLINT_API void glint_image_to_rgb8(const GlintImage *image, uint8_t *rgb);

@@ -66,8 +66,8 @@ GiView gi_view_spoiled(
         if (height > 1) view.up = gi_scale(view.up, height / (height - 1.0));
     }
     if (!GI_MISTAKE_HAS(mistakes, SHIFTED)) return view;
-    bool corner = mistakes->shift_x == 0 && mistakes->shift_y == 0;
-    double x = corner ? 1 : mistakes->shift_x, y = corner ? -1 : mistakes->shift_y;
+    int x, y;
+    gi_mistake_shift(mistakes, &x, &y);
     /* The picture goes right and down where the window goes left and up. */
     GiVec move =
         gi_add(gi_scale(view.across, -0.5 * x / width), gi_scale(view.up, 0.5 * y / height));

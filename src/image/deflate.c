@@ -78,6 +78,17 @@ size_t gi_deflate_piece(GiDeflater *deflater, const uint8_t *bytes, size_t size,
     return isal_deflate_stateless(stream) == COMP_OK ? stream->total_out : 0;
 }
 
+bool gi_inflate(const uint8_t *bytes, size_t size, uint8_t *out, size_t out_size) {
+    struct inflate_state state;
+    isal_inflate_init(&state);
+    state.next_in = (uint8_t *)(uintptr_t)bytes; /* only read */
+    state.avail_in = (uint32_t)size;
+    state.next_out = out;
+    state.avail_out = (uint32_t)out_size;
+    return size <= UINT32_MAX && out_size <= UINT32_MAX &&
+           isal_inflate_stateless(&state) == ISAL_DECOMP_OK && state.avail_out == 0;
+}
+
 uint32_t gi_deflate_crc32(uint32_t crc, const uint8_t *bytes, size_t size) {
     return crc32_gzip_refl(crc, bytes, size);
 }
@@ -157,6 +168,17 @@ size_t gi_deflate_piece(GiDeflater *deflater, const uint8_t *bytes, size_t size,
     int result = deflate(stream, Z_FULL_FLUSH);
     bool good = result == Z_OK && stream->avail_in == 0 && stream->avail_out > 0;
     return good ? room - stream->avail_out : 0;
+}
+
+bool gi_inflate(const uint8_t *bytes, size_t size, uint8_t *out, size_t out_size) {
+    z_stream stream = {
+        .next_in = bytes, .avail_in = (uInt)size, .next_out = out, .avail_out = (uInt)out_size};
+    if (size > UINT32_MAX || out_size > UINT32_MAX || inflateInit2(&stream, -15) != Z_OK) {
+        return false;
+    }
+    bool whole = inflate(&stream, Z_FINISH) == Z_STREAM_END && stream.avail_out == 0;
+    inflateEnd(&stream);
+    return whole;
 }
 
 /* zlib counts in uInt. */

@@ -27,6 +27,9 @@ size_t gi_deflate_piece(GiDeflater *deflater, const uint8_t *bytes, size_t size,
 #define GI_DEFLATE_END      "\x03\x00"
 #define GI_DEFLATE_END_SIZE 2
 
+/* Unpacks a whole deflate stream to out; false unless it is whole and of this size. */
+bool gi_inflate(const uint8_t *bytes, size_t size, uint8_t *out, size_t out_size);
+
 /* CRC-32 of bytes that follow those of crc; begin with 0. */
 uint32_t gi_deflate_crc32(uint32_t crc, const uint8_t *bytes, size_t size);
 

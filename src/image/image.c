@@ -86,6 +86,49 @@ GlintStatus glint_image_check_path(const char *path, GlintError *error) {
     return status == GLINT_OK && format_of(path) == FORMAT_EXR ? gi_exr_check(error) : status;
 }
 
+/* What a recipe puts into a PNG. *own is for the caller to free with gi_image_free_extras, also
+ * when memory was short. */
+bool gi_image_make_extras(GiMemory *memory, const GlintSaveDesc *desc, GiImageExtras *own) {
+    const GlintRecipe *recipe = desc->recipe;
+    *own = (GiImageExtras){.extras.title = desc->title};
+    if (recipe == NULL) return true;
+    own->text_size = glint_recipe_format(recipe, NULL, 0) + 1;
+    own->text = gi_memory_allocate(memory, own->text_size);
+    own->file_count = (size_t)recipe->file_count;
+    size_t size = own->file_count * sizeof *own->files;
+    own->files = size > 0 ? gi_memory_allocate(memory, size) : NULL;
+    if (own->text == NULL || (size > 0 && own->files == NULL)) return false;
+    glint_recipe_format(recipe, own->text, own->text_size);
+    for (size_t i = 0; i < own->file_count; i++) {
+        const GlintRecipeFile *file = &recipe->files[i];
+        own->files[i] = (GiPngFile){file->name, file->bytes, (size_t)file->size};
+    }
+    own->extras.recipe = own->text;
+    own->extras.files = own->files;
+    own->extras.file_count = recipe->file_count;
+    return true;
+}
+
+void gi_image_free_extras(GiMemory *memory, GiImageExtras *own) {
+    gi_memory_free(memory, own->text, own->text_size);
+    gi_memory_free(memory, own->files, own->file_count * sizeof *own->files);
+}
+
+static GlintStatus write_png(const GlintImage *image, const GlintSaveDesc *desc, GlintSinkFn sink,
+    void *user, GlintError *error) {
+    GiMemory memory;
+    gi_memory_init(&memory, NULL, 0);
+    GiImageExtras own;
+    GlintStatus status = GLINT_OK;
+    if (!gi_image_make_extras(&memory, desc, &own)) status = gi_error_memory(error);
+    if (status == GLINT_OK) {
+        status = gi_png_encode(
+            &memory, image, &own.extras, desc->thread_count, desc->monitor, sink, user, error);
+    }
+    gi_image_free_extras(&memory, &own);
+    return status;
+}
+
 /* On failure the reason may be the file's, which gi_file_write_commit tells. */
 static GlintStatus write_format(const GlintImage *image, Format format, const GlintSaveDesc *desc,
     GiFileWriter *file, GlintError *error) {
@@ -93,9 +136,7 @@ static GlintStatus write_format(const GlintImage *image, Format format, const Gl
     gi_memory_init(&memory, NULL, 0);
     switch (format) {
     case FORMAT_NONE: break;
-    case FORMAT_PNG:
-        return gi_png_encode(&memory, image, desc->title, desc->thread_count, desc->monitor,
-            gi_file_write, file, error);
+    case FORMAT_PNG: return write_png(image, desc, gi_file_write, file, error);
     case FORMAT_PFM:
         return gi_pfm_encode(&memory, image, desc->monitor, gi_file_write, file, error);
     case FORMAT_EXR: return gi_exr_write(&memory, image, desc, file, error);
@@ -132,10 +173,7 @@ GlintStatus glint_image_encode_png(const GlintImage *image, const GlintSaveDesc 
     if (sink == NULL) return gi_error_set(error, GLINT_ERROR_ARGUMENT, "there is no sink");
     status = check_layers(image, FORMAT_PNG, desc, error);
     if (status != GLINT_OK) return status;
-    GiMemory memory;
-    gi_memory_init(&memory, NULL, 0);
-    return gi_png_encode(
-        &memory, image, desc->title, desc->thread_count, desc->monitor, sink, user, error);
+    return write_png(image, desc, sink, user, error);
 }
 
 void glint_image_to_rgb8(const GlintImage *image, uint8_t *rgb) {

@@ -16,6 +16,7 @@
 #include "image/png.h"
 
 #include "base/assert.h"
+#include "base/digest.h"
 #include "base/error.h"
 #include "image/deflate.h"
 #include "math/gamma.h"
@@ -28,14 +29,13 @@
 
 enum {
     BAND_SIZE = 192 << 10, /* 16 bands for 1024 x 1024; smaller ones compress worse */
-    CHUNK_HEAD = 8,        /* length and name before the data of a chunk */
-    CHUNK_TAIL = 4,        /* CRC after it */
-    STREAM_HEAD = 2,       /* of the zlib stream, in the first chunk */
+    CHUNK_HEAD = GI_PNG_CHUNK_HEAD,
+    CHUNK_TAIL = GI_PNG_CHUNK_TAIL,
+    STREAM_HEAD = 2, /* of the zlib stream, in the first chunk */
     FILTER_PAETH = 4,
     FILTER_BLOCK = 64,      /* bytes filtered together */
     BANDS_PER_WORKER = 4,   /* between looks at the monitor */
     SAMPLE_SIZE = 24 << 10, /* bytes looked at to make the code of a piece */
-    TEXT_LIMIT = 1 << 16,   /* bytes of a title */
 };
 
 /* The memory of a band under way; after it rows + 1 rows of pixels, and room for its chunks. */
@@ -63,6 +63,7 @@ struct GiPng {
     GlintSinkFn sink;
     void *user;
     GiGammaFn gamma;
+    GiPngExtras extras;
     int width, height;
     int columns, rows; /* of a piece and a band, but the last ones */
     size_t stride;     /* of a row of pixels; one black pixel stands to its left */
@@ -74,85 +75,24 @@ struct GiPng {
     pthread_mutex_t mutex; /* of the free blocks */
     Block *free;
     uint32_t adler;      /* of what was sent */
+    uint64_t digest;     /* of its pixels, for the recipe */
     _Atomic bool failed; /* for want of memory */
     bool stopped;        /* by the sink */
 };
 
-static void put32(uint8_t *to, uint32_t value) {
-    for (int i = 0; i < 4; i++) to[i] = (uint8_t)(value >> (24 - 8 * i));
-}
+/* ---------------------------------------------------------------- head */
 
-/* Completes a chunk whose data is in place, CHUNK_HEAD after begin. Returns the whole size. */
-static size_t finish_chunk(uint8_t *begin, const char *name, size_t data_size) {
-    put32(begin, (uint32_t)data_size);
-    memcpy(begin + 4, name, 4);
-    put32(begin + CHUNK_HEAD + data_size, gi_deflate_crc32(0, begin + 4, 4 + data_size));
-    return CHUNK_HEAD + data_size + CHUNK_TAIL;
-}
-
-/* ---------------------------------------------------------------- head and texts */
-
-/* Reads one character of UTF-8. Broken bytes and control characters become question marks. */
-static uint32_t next_character(const char **text, const char *end) {
-    const uint8_t *from = (const uint8_t *)*text;
-    uint32_t first = from[0];
-    int more = first < 0x80 ? 0 : first < 0xe0 ? 1 : first < 0xf0 ? 2 : 3;
-    static const uint32_t smallest[] = {0, 0x80, 0x800, 0x10000};
-    uint32_t character = more == 0 ? first : first & (0x3fu >> more);
-    bool good = (first < 0x80 || first >= 0xc2) && first < 0xf5 && end - *text > more;
-    for (int i = 1; good && i <= more; i++) {
-        good = (from[i] & 0xc0) == 0x80;
-        character = character << 6 | (from[i] & 0x3f);
-    }
-    good = good && character >= smallest[more] && character < 0x110000 && character >> 11 != 0x1b;
-    *text += good ? 1 + more : 1;
-    bool control = (character < 32 && character != '\n') || (character >= 0x7f && character < 0xa0);
-    return good && !control ? character : '?';
-}
-
-/* The title: tEXt when Latin-1 can write it, else iTXt, which is UTF-8. */
-static size_t write_title(uint8_t *to, const char *title, size_t length) {
-    /* In iTXt there follow: not compressed, no language, no translated keyword. */
-    static const char head[] = "Title\0\0\0\0";
-    const char *end = title + length;
-    uint32_t highest = 0;
-    for (const char *from = title; from < end;) {
-        uint32_t character = next_character(&from, end);
-        if (character > highest) highest = character;
-    }
-    bool latin1 = highest < 0x100;
-    size_t size = latin1 ? 6 : sizeof head;
-    uint8_t *data = to + CHUNK_HEAD;
-    memcpy(data, head, size);
-    for (const char *from = title; from < end;) {
-        const char *begin = from;
-        uint32_t character = next_character(&from, end);
-        if (latin1 || character == '?') {
-            data[size++] = (uint8_t)character;
-        } else {
-            for (; begin < from; begin++) data[size++] = (uint8_t)*begin;
-        }
-    }
-    return finish_chunk(to, latin1 ? "tEXt" : "iTXt", size);
-}
-
-static size_t write_head(uint8_t *to, const GiPng *png, const char *title, size_t length) {
-    static const char software[] = "Software\0Glint ";
+static size_t write_head(uint8_t *to, const GiPng *png) {
     uint8_t *at = to;
     memcpy(at, "\x89PNG\r\n\x1a\n", 8);
     at += 8;
-    put32(at + CHUNK_HEAD, (uint32_t)png->width);
-    put32(at + CHUNK_HEAD + 4, (uint32_t)png->height);
+    gi_png_put32(at + CHUNK_HEAD, (uint32_t)png->width);
+    gi_png_put32(at + CHUNK_HEAD + 4, (uint32_t)png->height);
     /* 8 bits, RGB, deflate, the standard filters, not interlaced. */
     memcpy(at + CHUNK_HEAD + 8, "\x08\x02\0\0\0", 5);
-    at += finish_chunk(at, "IHDR", 13);
-    put32(at + CHUNK_HEAD, 45455); /* 100000 / 2.2 */
-    at += finish_chunk(at, "gAMA", 4);
-    const char *version = glint_version_text();
-    memcpy(at + CHUNK_HEAD, software, sizeof software - 1);
-    memcpy(at + CHUNK_HEAD + sizeof software - 1, version, strlen(version));
-    at += finish_chunk(at, "tEXt", sizeof software - 1 + strlen(version));
-    if (title != NULL) at += write_title(at, title, length);
+    at += gi_png_finish_chunk(at, "IHDR", 13);
+    gi_png_put32(at + CHUNK_HEAD, 45455); /* 100000 / 2.2 */
+    at += gi_png_finish_chunk(at, "gAMA", 4);
     return (size_t)(at - to);
 }
 
@@ -289,7 +229,7 @@ static bool encode_band(GiPng *png, size_t index, Scratch *scratch) {
         size_t packed =
             gi_deflate_piece(scratch->deflater, scratch->raw, size, chunk + CHUNK_HEAD + head);
         if (packed == 0) return false;
-        band->chunks_size += finish_chunk(chunk, "IDAT", head + packed);
+        band->chunks_size += gi_png_finish_chunk(chunk, "IDAT", head + packed);
         uint32_t adler = gi_deflate_adler32(scratch->raw, size);
         band->adler = gi_deflate_adler32_join(band->adler, adler, size);
         band->raw_size += size;
@@ -347,20 +287,11 @@ static GlintStatus stopped(GlintError *error) {
     return gi_error_set(error, GLINT_ERROR_FILE, "the receiver of the picture's bytes stopped");
 }
 
-/* Signature, head and texts; their own buffer, since a title may be long. */
-static GlintStatus send_head(GiPng *png, const char *title, GlintError *error) {
-    size_t length = title != NULL ? strlen(title) : 0;
-    if (length > TEXT_LIMIT) {
-        /* Cut between characters. */
-        length = TEXT_LIMIT;
-        while (length > 0 && ((uint8_t)title[length] & 0xc0) == 0x80) length--;
-    }
-    size_t size = 256 + length;
-    uint8_t *head = gi_memory_allocate(png->memory, size);
-    if (head == NULL) return gi_error_memory(error);
-    bool taken = png->sink(png->user, head, write_head(head, png, title, length));
-    gi_memory_free(png->memory, head, size);
-    return taken ? GLINT_OK : stopped(error);
+/* Signature, head and texts. */
+static GlintStatus send_head(GiPng *png, GlintError *error) {
+    uint8_t head[64];
+    if (!png->sink(png->user, head, write_head(head, png))) return stopped(error);
+    return gi_png_send_texts(png->memory, &png->extras, png->sink, png->user, error);
 }
 
 GlintStatus gi_png_create(
@@ -372,6 +303,7 @@ GlintStatus gi_png_create(
     png->sink = desc->sink;
     png->user = desc->user;
     png->gamma = desc->gamma != NULL ? desc->gamma : gi_gamma_encode;
+    png->extras = desc->extras;
     png->width = desc->width;
     png->height = desc->height;
     png->worker_count = (size_t)desc->worker_count;
@@ -391,13 +323,21 @@ GlintStatus gi_png_create(
         atomic_init(&band->missing, rows * (uint64_t)png->width);
         atomic_init(&band->encoded, false);
     }
-    if (status == GLINT_OK) status = send_head(png, desc->title, error);
+    if (status == GLINT_OK) status = send_head(png, error);
     if (status != GLINT_OK) {
         gi_png_destroy(png);
         return status;
     }
     *result = png;
     return GLINT_OK;
+}
+
+/* The 8-bit values as they stand in the picture, row after row. */
+static void digest_band(GiPng *png, const uint8_t *pixels, int rows) {
+    for (int row = 1; row <= rows; row++) {
+        const uint8_t *first = pixels + (size_t)row * png->stride + 3;
+        png->digest = gi_digest(png->digest, first, 3 * (size_t)png->width);
+    }
 }
 
 bool gi_png_send(GiPng *png) {
@@ -407,6 +347,7 @@ bool gi_png_send(GiPng *png) {
         const Block *block = atomic_load_explicit(&band->block, memory_order_relaxed);
         png->stopped = !png->sink(png->user, block->chunks, band->chunks_size);
         png->adler = gi_deflate_adler32_join(png->adler, band->adler, band->raw_size);
+        if (png->extras.recipe != NULL) digest_band(png, block->pixels, rows_of(png, png->sent));
         return_block(png, band);
         png->sent++;
     }
@@ -419,10 +360,14 @@ GlintStatus gi_png_finish(GiPng *png, GlintError *error) {
     GI_ASSERT(png->sent == png->band_count);
     uint8_t tail[64];
     memcpy(tail + CHUNK_HEAD, GI_DEFLATE_END, GI_DEFLATE_END_SIZE);
-    put32(tail + CHUNK_HEAD + GI_DEFLATE_END_SIZE, png->adler);
-    size_t size = finish_chunk(tail, "IDAT", GI_DEFLATE_END_SIZE + 4);
-    size += finish_chunk(tail + size, "IEND", 0);
-    return png->sink(png->user, tail, size) ? GLINT_OK : stopped(error);
+    gi_png_put32(tail + CHUNK_HEAD + GI_DEFLATE_END_SIZE, png->adler);
+    size_t size = gi_png_finish_chunk(tail, "IDAT", GI_DEFLATE_END_SIZE + 4);
+    if (!png->sink(png->user, tail, size)) return stopped(error);
+    GlintStatus status =
+        gi_png_send_rest(png->memory, &png->extras, png->digest, png->sink, png->user, error);
+    if (status != GLINT_OK) return status;
+    return png->sink(png->user, tail, gi_png_finish_chunk(tail, "IEND", 0)) ? GLINT_OK
+                                                                            : stopped(error);
 }
 
 /* ---------------------------------------------------------------- a picture that is there */
@@ -472,7 +417,7 @@ static GlintStatus encode_whole(GiPng *png, const GlintImage *image, GiPool *poo
     return gi_png_finish(png, error);
 }
 
-GlintStatus gi_png_encode(GiMemory *memory, const GlintImage *image, const char *title,
+GlintStatus gi_png_encode(GiMemory *memory, const GlintImage *image, const GiPngExtras *extras,
     int thread_count, const GlintMonitor *monitor, GlintSinkFn sink, void *user,
     GlintError *error) {
     /* A thread has to earn its start, about two bands' worth. */
@@ -486,7 +431,7 @@ GlintStatus gi_png_encode(GiMemory *memory, const GlintImage *image, const char 
     const GiPngDesc desc = {.width = image->width,
         .height = image->height,
         .worker_count = pool != NULL ? gi_pool_worker_count(pool) : 1,
-        .title = title,
+        .extras = *extras,
         .sink = sink,
         .user = user};
     GiPng *png = NULL;

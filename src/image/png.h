@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT
  * PNG: 8-bit RGB, gamma 2.2. A picture that is there is encoded by one call; one that is being made
- * is encoded meanwhile. Either way the bytes depend on the pixels and the title alone. */
+ * is encoded meanwhile. Either way the bytes depend on the pixels and the extras alone. */
 #pragma once
 
 #include "base/memory.h"
+#include "image/png_extra.h"
 #include "math/gamma.h"
 
-/* Encodes image, which has been checked, and hands the bytes to sink in order. title (UTF-8) and
- * monitor may be null; thread_count 0 is one per core. Errors: FILE (the sink stopped), MEMORY,
+/* Encodes image, which has been checked, and hands the bytes to sink in order. monitor may
+ * be null; thread_count 0 is one per core. Errors: FILE (the sink stopped), MEMORY,
  * CANCELLED. */
-GlintStatus gi_png_encode(GiMemory *memory, const GlintImage *image, const char *title,
+GlintStatus gi_png_encode(GiMemory *memory, const GlintImage *image, const GiPngExtras *extras,
     int thread_count, const GlintMonitor *monitor, GlintSinkFn sink, void *user, GlintError *error);
 
 /* ---------------------------------------------------------------- while it is being made */
@@ -18,9 +19,9 @@ typedef struct GiPng GiPng;
 
 typedef struct GiPngDesc {
     int width, height, worker_count;
-    GiGammaFn gamma;   /* null: gi_gamma_encode; or another that gives the same */
-    const char *title; /* or null */
-    GlintSinkFn sink;  /* called by those functions that send, on their thread */
+    GiGammaFn gamma;    /* null: gi_gamma_encode; or another that gives the same */
+    GiPngExtras extras; /* what they point at must live as long as the picture is made */
+    GlintSinkFn sink;   /* called by those functions that send, on their thread */
     void *user;
 } GiPngDesc;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Names, places and curves. Curves act on linear values v; what a correct program writes is
+ * Places and curves. Curves act on linear values v; what a correct program writes is
  * 255 v^(1/2.2), rounded. */
 #include "mistake/mistake.h"
 
@@ -7,57 +7,6 @@
 #include "math/gamma.h"
 
 #include <math.h>
-#include <string.h>
-
-/* ---------------------------------------------------------------- names */
-
-static const char *const names[] = {
-#define MISTAKE_NAME(constant, name, text) name,
-    GLINT_MISTAKE_LIST(MISTAKE_NAME)
-#undef MISTAKE_NAME
-};
-
-static const char *const texts[] = {
-#define MISTAKE_TEXT(constant, name, text) text,
-    GLINT_MISTAKE_LIST(MISTAKE_TEXT)
-#undef MISTAKE_TEXT
-};
-
-_Static_assert(GLINT_MISTAKE_COUNT < 64, "a set of mistakes has 64 bits");
-
-const char *glint_mistake_name(GlintMistake mistake) {
-    return (unsigned)mistake < GLINT_MISTAKE_COUNT ? names[mistake] : NULL;
-}
-
-const char *glint_mistake_text(GlintMistake mistake) {
-    return (unsigned)mistake < GLINT_MISTAKE_COUNT ? texts[mistake] : NULL;
-}
-
-bool glint_mistake_from_name(const char *name, GlintMistake *mistake) {
-    for (int i = 0; i < GLINT_MISTAKE_COUNT; i++) {
-        if (strcmp(name, names[i]) == 0) {
-            *mistake = (GlintMistake)i;
-            return true;
-        }
-    }
-    return false;
-}
-
-const char *gi_mistake_check(const GlintMistakes *mistakes, int light_count) {
-    enum { SHIFT_LIMIT = 4 };
-    if (mistakes->set >> GLINT_MISTAKE_COUNT != 0) return "there is no such mistake";
-    if (mistakes->light < 0 || mistakes->light > light_count) {
-        return "the light that is to be missing is not there";
-    }
-    if (mistakes->shift_x < -SHIFT_LIMIT || mistakes->shift_x > SHIFT_LIMIT ||
-        mistakes->shift_y < -SHIFT_LIMIT || mistakes->shift_y > SHIFT_LIMIT) {
-        return "a picture can be shifted by -4 to 4 half pixels";
-    }
-    if (!(mistakes->factor >= 0 && mistakes->factor <= 1e30)) {
-        return "the factor of brightness must be from 0 to 1e30";
-    }
-    return NULL;
-}
 
 /* ---------------------------------------------------------------- places */
 
@@ -116,9 +65,7 @@ static bool writes_wrongly(const GlintMistakes *mistakes) {
 
 static void exchange(const GlintMistakes *mistakes, const float linear[3], float color[3]) {
     bool bgr = GI_MISTAKE_HAS(mistakes, BGR);
-    double factor = 1;
-    if (GI_MISTAKE_HAS(mistakes, BRIGHTNESS))
-        factor = mistakes->factor > 0 ? mistakes->factor : 0.5;
+    double factor = GI_MISTAKE_HAS(mistakes, BRIGHTNESS) ? gi_mistake_factor(mistakes) : 1;
     for (int i = 0; i < 3; i++) color[i] = (float)((double)linear[bgr ? 2 - i : i] * factor);
 }
 

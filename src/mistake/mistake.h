@@ -16,6 +16,10 @@
 /* Null, or what is wrong with these numbers; light_count: of the scene. */
 const char *gi_mistake_check(const GlintMistakes *mistakes, int light_count);
 
+/* How far they go, where it is not said. */
+double gi_mistake_factor(const GlintMistakes *mistakes);
+void gi_mistake_shift(const GlintMistakes *mistakes, int *x, int *y);
+
 /* The pixel of the right picture that a wrong one of the same size shows at (*x, *y). */
 void gi_mistake_place(const GlintMistakes *mistakes, int width, int height, int *x, int *y);
 

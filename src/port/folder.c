@@ -9,7 +9,9 @@ GiFileKind gi_file_identify(const char *path, GiFileId *id) {
     struct stat info;
     if (stat(path, &info) != 0) return GI_FILE_MISSING;
     *id = (GiFileId){(uint64_t)info.st_dev, (uint64_t)info.st_ino};
-    return S_ISDIR(info.st_mode) ? GI_FILE_FOLDER : GI_FILE_OTHER;
+    return S_ISDIR(info.st_mode)   ? GI_FILE_FOLDER
+           : S_ISREG(info.st_mode) ? GI_FILE_REGULAR
+                                   : GI_FILE_OTHER;
 }
 
 void gi_folder_visit(const char *path, bool (*visit)(void *user, const char *name), void *user) {

@@ -10,7 +10,12 @@ typedef struct GiFileId {
     uint64_t device, number;
 } GiFileId;
 
-typedef enum GiFileKind { GI_FILE_MISSING, GI_FILE_FOLDER, GI_FILE_OTHER } GiFileKind;
+typedef enum GiFileKind {
+    GI_FILE_MISSING,
+    GI_FILE_FOLDER,
+    GI_FILE_REGULAR,
+    GI_FILE_OTHER /* a pipe, a device */
+} GiFileKind;
 
 /* What the path names; *id is set unless it is missing. */
 GiFileKind gi_file_identify(const char *path, GiFileId *id);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "reader/files.h"
 
+#include "base/digest.h"
+#include "port/file.h"
 #include "reader/state.h"
 #include "reader/suggest.h"
 
@@ -84,7 +86,7 @@ static bool next_folder(Search *search) {
 }
 
 static bool is_file(const char *path, GiFileId *id) {
-    return gi_file_identify(path, id) == GI_FILE_OTHER;
+    return gi_file_identify(path, id) >= GI_FILE_REGULAR;
 }
 
 static bool find(const char *scene, const char *name, char path[PATH_LIMIT], GiFileId *id) {
@@ -198,6 +200,27 @@ static bool report_loader(
     return false;
 }
 
+/* Notes a file among those of the scene, with what its content is before it is loaded. A pipe
+ * cannot be read twice, and what cannot be read is told by its loader. */
+static bool note_file(const Loading *loading, GlintFileKind kind, const char *name) {
+    GiReader *reader = loading->reader;
+    GiSceneFile *file = gi_scene_add_file(reader->scene, kind, name, loading->path);
+    if (file == NULL) {
+        gi_reader_out_of_memory(reader);
+        return false;
+    }
+    GiFileId id;
+    GiFileBytes bytes;
+    if (gi_file_identify(loading->path, &id) != GI_FILE_REGULAR) return true;
+    if (gi_file_bytes_load(&bytes, reader->memory, loading->path, NULL, NULL) != GLINT_OK) {
+        return true;
+    }
+    file->size = bytes.size;
+    file->digest = gi_digest(0, bytes.bytes, bytes.size);
+    gi_file_bytes_free(&bytes, reader->memory);
+    return true;
+}
+
 static bool load_mesh(const Loading *loading, uint32_t *index) {
     GiReader *reader = loading->reader;
     const GiReaderSource *source = reader->source;
@@ -239,7 +262,8 @@ static const GiLoadedFile *find_loaded(const GiFiles *files, GiKind kind, GiFile
     return NULL;
 }
 
-static bool load_found(const Loading *loading, GiKind kind, GiFileId id, uint32_t *index) {
+static bool load_found(
+    const Loading *loading, GiKind kind, const char *name, GiFileId id, uint32_t *index) {
     GiReader *reader = loading->reader;
     const GiLoadedFile *known = find_loaded(&reader->files, kind, id);
     if (known != NULL) {
@@ -252,7 +276,9 @@ static bool load_found(const Loading *loading, GiKind kind, GiFileId id, uint32_
         return false;
     }
     *index = 0;
-    bool good = kind == GI_KIND_SURFACE ? load_mesh(loading, index) : load_picture(loading, index);
+    bool mesh = kind == GI_KIND_SURFACE;
+    if (!note_file(loading, mesh ? GLINT_FILE_MESH : GLINT_FILE_TEXTURE, name)) return false;
+    bool good = mesh ? load_mesh(loading, index) : load_picture(loading, index);
     reader->files.loaded.data[reader->files.loaded.count++] =
         (GiLoadedFile){id, kind, *index, !good};
     return good;
@@ -272,7 +298,7 @@ static bool load(GiReader *reader, GiKind kind, GiVec name, GiPlace place, uint3
     if (reader->source->without_files) {
         good = add_empty(reader, kind, index);
     } else if (find(reader->source->name, text, path, &id)) {
-        good = load_found(&loading, kind, id, index);
+        good = load_found(&loading, kind, text, id, index);
     } else {
         report_missing(reader, text, place, (int)name.y);
         return false; /* and again at its next use, since that is another line to mend */
@@ -308,6 +334,7 @@ bool gi_files_environment(GiReader *reader, GiVec name, GiPlace place) {
         return true;
     }
     Loading loading = {reader, path, place, (int)name.y};
+    if (!note_file(&loading, GLINT_FILE_ENVIRONMENT, text)) return false;
     GlintError error = {0};
     GlintStatus status = gi_environment_load(&loaded, reader->memory, path, name.z, &error);
     if (!report_loader(&loading, status, error.message, 0)) return false;

@@ -3,6 +3,7 @@
  * tree.c. Nothing of the document is kept but the open elements and what is named. */
 #include "reader/reader.h"
 
+#include "base/digest.h"
 #include "base/error.h"
 #include "reader/state.h"
 
@@ -71,6 +72,7 @@ static void slide_window(GiReader *reader, size_t more) {
 typedef struct Feed {
     const GiReaderSource *source;
     int64_t total; /* bytes read */
+    uint64_t digest;
     bool ended;
 } Feed;
 
@@ -98,6 +100,8 @@ static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintE
                 error, GLINT_ERROR_FILE, source->name, "the file cannot be read");
         }
         feed->ended = count == 0;
+        feed->digest =
+            gi_digest(feed->digest, reader->window.data + reader->window.size, (size_t)count);
         got += (size_t)count;
         reader->window.size += (size_t)count;
         reader->window.data[reader->window.size] = 0; /* where the scanner stops */
@@ -217,7 +221,8 @@ GlintStatus gi_reader_load(
     GiReader *reader = gi_memory_allocate(scene->memory, sizeof *reader);
     if (reader == NULL) return gi_error_memory(error);
     open_reader(reader, scene, source);
-    bool open = !source->expat_only || gi_parser_open(reader);
+    bool noted = gi_scene_add_file(scene, GLINT_FILE_SCENE, source->name, source->name) != NULL;
+    bool open = noted && (!source->expat_only || gi_parser_open(reader));
     GlintStatus status = open ? parse(reader, &feed, error) : gi_error_memory(error);
     if (status == GLINT_OK && reader->file_status != GLINT_OK) {
         status = reader->file_status == GLINT_CANCELLED ? report_cancelled(error)
@@ -245,6 +250,10 @@ GlintStatus gi_reader_load(
         }
     }
     if (status == GLINT_OK) scene->dialect = dialect;
+    if (noted) {
+        scene->files.data[0].size = (uint64_t)feed.total;
+        scene->files.data[0].digest = feed.digest;
+    }
     if (result != NULL) result->byte_count = feed.total;
     if (source->sources != NULL) {
         source->sources->window = reader->window;

@@ -40,6 +40,8 @@ void gi_scene_reset(GiScene *scene) {
     gi_array_free(memory, &scene->textures);
     gi_environment_free(&scene->environment, memory);
     gi_array_free(memory, &scene->groups);
+    gi_array_free(memory, &scene->files);
+    gi_array_free(memory, &scene->file_names);
     gi_array_free(memory, &scene->matrices);
     gi_array_free(memory, &scene->roots);
 }
@@ -73,6 +75,29 @@ GiLight gi_light_default(void) {
         .up = {0, 1, 0},
         .width = 1,
         .height = 1};
+}
+
+/* ---------------------------------------------------------------- files */
+
+static bool append_text(GiScene *scene, const char *text, uint32_t *at) {
+    size_t size = strlen(text) + 1, count = scene->file_names.count;
+    if (count + size > UINT32_MAX || !gi_array_reserve(scene->memory, &scene->file_names, size)) {
+        return false;
+    }
+    memcpy(scene->file_names.data + count, text, size);
+    scene->file_names.count += size;
+    *at = (uint32_t)count;
+    return true;
+}
+
+GiSceneFile *gi_scene_add_file(
+    GiScene *scene, GlintFileKind kind, const char *name, const char *path) {
+    GiSceneFile file = {.kind = kind};
+    if (!append_text(scene, name, &file.name) || !append_text(scene, path, &file.path) ||
+        !gi_array_push(scene->memory, &scene->files, file)) {
+        return NULL;
+    }
+    return &scene->files.data[scene->files.count - 1];
 }
 
 /* ---------------------------------------------------------------- checks */

@@ -76,6 +76,14 @@ typedef struct GiGroup {
     bool nests; /* some child is a group */
 } GiGroup;
 
+/* A file that the scene is made of. The text is an offset into file_names: the name by which the
+ * scene calls it, and behind that name's zero the path by which it was opened. */
+typedef struct GiSceneFile {
+    GlintFileKind kind;
+    uint32_t name, path;
+    uint64_t size, digest; /* of the content; 0 of what is not a regular file */
+} GiSceneFile;
+
 typedef GI_ARRAY(GiShapeInfo) GiShapeInfos;
 
 typedef struct GiScene {
@@ -104,6 +112,8 @@ typedef struct GiScene {
     GiShapeInfos info[GI_SHAPE_KIND_COUNT]; /* parallel to the arrays above */
     uint32_t shape_count;                   /* of all kinds; the next order */
     GI_ARRAY(GiGroup) groups;
+    GI_ARRAY(GiSceneFile) files; /* [0]: the scene's own, when it was loaded */
+    GI_ARRAY(char) file_names;
     GI_ARRAY(GiAffine) matrices;
     GI_ARRAY(GiShapeRef) roots; /* what stands directly in the scene, in document order */
 } GiScene;
@@ -148,6 +158,10 @@ bool gi_scene_add_plane(
     GiScene *scene, GiVec point, GiVec normal, uint32_t shader, GiShapeRef *ref);
 bool gi_scene_add_mesh_surface(GiScene *scene, uint32_t mesh, uint32_t shader, GiShapeRef *ref);
 bool gi_scene_add_group(GiScene *scene, GiShapeRef *ref);
+
+/* Notes a file; its digest is the caller's to fill. Null when memory is short. */
+GiSceneFile *gi_scene_add_file(
+    GiScene *scene, GlintFileKind kind, const char *name, const char *path);
 
 /* Appends a step to a group's transform (value; or matrix for GI_STEP_MATRIX). */
 bool gi_scene_add_step(GiScene *scene, uint32_t group, GiTransformStepKind kind, GiVec value);
