@@ -49,7 +49,7 @@ typedef struct CliVerb {
 #define CLI_COUNT(array) (int)(sizeof(array) / sizeof *(array))
 
 /* Every verb, in the order of the help. The first is what the program does when none is named. */
-#define CLI_VERB_LIST(X) X(render) X(verify) X(completion)
+#define CLI_VERB_LIST(X) X(render) X(grade) X(verify) X(completion)
 
 #define CLI_VERB_DECLARE(name) extern const CliVerb cli_verb_##name;
 CLI_VERB_LIST(CLI_VERB_DECLARE)

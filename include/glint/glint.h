@@ -733,8 +733,109 @@ GLINT_API GlintStatus glint_image_digest(
     const GlintImage *image, uint64_t *digest, GlintError *error);
 GLINT_API GlintStatus glint_picture_digest(const char *path, uint64_t *digest, GlintError *error);
 
+/* Reads a picture: .png and .jpeg (any kind of pixels; 8 bits count, transparency does not), .pfm,
+ * .exr (stored in rows; R, G and B or Y). The first bytes of the file tell the format. 8-bit values
+ * become the linear ones that glint_image_save writes as the same values again. image->pixels is
+ * freed with glint_image_free. Errors: ARGUMENT, FILE (also a missing module), MEMORY. */
+GLINT_API GlintStatus glint_image_load(const char *path, GlintImage *image, GlintError *error);
+GLINT_API void glint_image_free(GlintImage *image); /* of glint_image_load; all zero is allowed */
+
 /* The 8-bit values that the PNG would hold: width * height * 3 bytes. */
 GLINT_API void glint_image_to_rgb8(const GlintImage *image, uint8_t *rgb);
+
+/* ---------------------------------------------------------------- comparing and grading */
+
+typedef struct GlintCompareDesc {
+    int tolerance; /* a pixel differs when a channel is apart by more, of 255; 0 to 255; 2 */
+    /* How large pixels are to the eye: 67.02 (default) is a screen 3840 pixels wide, seen from as
+     * far as it is wide. 1 to 1000. */
+    double pixels_per_degree;
+    bool flip;         /* true (default); false: GlintComparison.flip is not worked out, and 0 */
+    float *flip_map;   /* null, or where to put the FLIP error of each pixel: width * height */
+    float *difference; /* null, or where to put a picture, width * height * 3 linear values, whose
+                          8-bit values are 8 times as large as the differences */
+    int cookie;
+} GlintCompareDesc;
+
+GLINT_API GlintCompareDesc glint_compare_desc_default(void);
+
+/* Of the 8-bit values that glint_image_to_rgb8 gives, but for relative. */
+typedef struct GlintComparison {
+    int max;         /* the largest difference of a channel, 0 to 255 */
+    double mean;     /* of all channels' differences */
+    double percent;  /* of the pixels with a channel that differs by more than the tolerance */
+    double relative; /* mean difference of linear values over the mean of the reference's */
+    double flip;     /* mean FLIP error, 0 to 1: how far apart they look (Andersson et al. 2020) */
+} GlintComparison;
+
+/* Compares a picture with the reference, which is of the same size. Errors: ARGUMENT (also two
+ * sizes), MEMORY. */
+GLINT_API GlintStatus glint_image_compare(const GlintImage *image, const GlintImage *reference,
+    const GlintCompareDesc *desc, GlintComparison *comparison, GlintError *error);
+
+/* One or two mistakes that were tried, and what they explain: 1 minus the sum of the differences
+ * beyond the tolerance that are left, over that of the picture without mistakes. */
+typedef struct GlintHypothesis {
+    GlintMistakes mistakes;
+    double explains; /* 1: all; 0 or less: nothing */
+} GlintHypothesis;
+
+typedef enum GlintVerdict {
+    GLINT_VERDICT_SAME,      /* all 8-bit values are equal */
+    GLINT_VERDICT_ROUNDING,  /* none differs by more than the tolerance, or isolated pixels do, and
+                                no mistake explains these */
+    GLINT_VERDICT_EXPLAINED, /* the first hypothesis explains the difference, and no other does */
+    GLINT_VERDICT_UNCLEAR    /* none explains most of it, or several do about equally well */
+} GlintVerdict;
+
+/* "same", "rounding", "explained", "unclear"; null out of range. */
+GLINT_API const char *glint_verdict_name(GlintVerdict verdict);
+
+enum { GLINT_HYPOTHESIS_LIMIT = 8 };
+
+typedef struct GlintGrade {
+    GlintVerdict verdict;
+    GlintComparison comparison; /* with the right picture */
+    /* What explains most, best first. ROUNDING: TRUNCATED where that explains it. UNCLEAR: the
+     * first `rivals` of them are about equally good. */
+    GlintHypothesis hypotheses[GLINT_HYPOTHESIS_LIMIT];
+    int hypothesis_count, rivals;
+    int tried;            /* mistakes and pairs of them */
+    bool from_scene;      /* false: the reference is a picture, so mistakes of a finished
+                             picture alone were tried */
+    bool size_differs;    /* the picture has not the size it should have; then all the rest is
+                             about a right picture of its size */
+    int width, height;    /* as it should be */
+    GlintImage reference; /* the right picture, at the size of the picture; to be freed with
+                             glint_image_free */
+} GlintGrade;
+
+typedef struct GlintGradeDesc {
+    GlintSceneDesc scene; /* for the scene, when the reference is one */
+    GlintCompareDesc compare;
+    int width, height;           /* of the picture that was asked for; 0 (default): the scene's */
+    int samples;                 /* likewise */
+    bool pairs;                  /* true (default); false: one mistake at a time */
+    const GlintMonitor *monitor; /* null; the fraction is of GLINT_PHASE_TRACE */
+    int cookie;
+} GlintGradeDesc;
+
+GLINT_API GlintGradeDesc glint_grade_desc_default(void);
+
+/* Finds out how a picture differs from what it should be and which mistake, or which two, explain
+ * it, by drawing the scene with each of them. reference is a scene, or a picture (.png, .jpg,
+ * .jpeg, .pfm, .exr). Errors: ARGUMENT, FILE, SCENE, MEMORY, THREAD, CANCELLED. */
+GLINT_API GlintStatus glint_grade(const GlintImage *image, const char *reference,
+    const GlintGradeDesc *desc, GlintGrade *grade, GlintError *error);
+
+/* What was found, in one sentence without a full stop: "shadows are missing (no-shadows): explains
+ * 97 % of the difference". At most size bytes are written, always zero-terminated when size > 0.
+ * Returns the length without the cut. */
+GLINT_API size_t glint_grade_format(const GlintGrade *grade, char *buffer, size_t size);
+
+/* The same of the mistakes of one hypothesis. */
+GLINT_API size_t glint_hypothesis_format(
+    const GlintHypothesis *hypothesis, char *buffer, size_t size);
 
 #ifdef __cplusplus
 }
