@@ -50,6 +50,7 @@
     X(golden) \
     X(tiles) \
     X(api) \
+    X(grade) \
     X(load) \
     X(life) \
     X(exr) \

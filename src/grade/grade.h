@@ -8,6 +8,9 @@
 
 enum { GI_GRADE_LIGHT_LIMIT = 64 };
 
+/* Up to so many percent of the pixels may differ for no other reason than rounding at edges. */
+#define GI_GRADE_ISOLATED 0.1
+
 typedef struct GiGradeTask {
     GiMemory *memory;
     int width, height;

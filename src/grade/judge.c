@@ -12,9 +12,6 @@
 /* Less than this is not "most". */
 #define LEAST_EXPLAINED 0.75
 
-/* A picture with isolated pixels that differ, in percent of all. */
-#define ISOLATED 0.1
-
 /* Whether the second leaves clearly more unexplained than the first: twice as much, and not only a
  * trace of the whole. What fits to the last pixel needs less of a lead. */
 static bool is_rival(double first, double second) {
@@ -27,7 +24,7 @@ void gi_grade_judge(GlintGrade *grade) {
     double best = grade->hypothesis_count > 0 ? list[0].explains : 0;
     grade->rivals = 0;
     if (best < LEAST_EXPLAINED) {
-        bool isolated = grade->comparison.percent <= ISOLATED;
+        bool isolated = grade->comparison.percent <= GI_GRADE_ISOLATED;
         grade->verdict = isolated ? GLINT_VERDICT_ROUNDING : GLINT_VERDICT_UNCLEAR;
         if (isolated) grade->hypothesis_count = 0;
         return;
@@ -108,9 +105,8 @@ static int percent_of(const GlintHypothesis *hypothesis) {
 
 static void add_rounding(Text *text, const GlintGrade *grade) {
     if (grade->comparison.percent > 0) {
-        add(text,
-            "the same but for isolated pixels (%.2g %%), which no mistake that was tried explains",
-            grade->comparison.percent);
+        add(text, "the same but for isolated pixels (%.2g %%)%s", grade->comparison.percent,
+            grade->tried > 0 ? ", which no mistake that was tried explains" : "");
         return;
     }
     add(text, "the same up to rounding: no value differs by more than %d", grade->comparison.max);

@@ -357,6 +357,13 @@ static void judge_rounding(Search *search) {
     search->grade->verdict = GLINT_VERDICT_ROUNDING;
 }
 
+/* Whether so few pixels differ that any of many mistakes might explain them by chance. */
+static bool are_few(const Search *search) {
+    const GiGradeTask *task = search->task;
+    double percent = search->grade->comparison.percent;
+    return percent <= 0.01 || percent / 100 * task->width * task->height < 8.5;
+}
+
 /* ---------------------------------------------------------------- the whole */
 
 static GlintStatus run(Search *search) {
@@ -373,10 +380,15 @@ static GlintStatus run(Search *search) {
         judge_rounding(search);
         return GLINT_OK;
     }
+    if (are_few(search)) {
+        grade->verdict = GLINT_VERDICT_ROUNDING;
+        return GLINT_OK;
+    }
     search->whole = left_of(search, task->right, &none, 1);
     list_candidates(search);
     GlintStatus status = try_singles(search);
-    if (status == GLINT_OK && task->pairs && search->best_single > 0.03 * search->whole) {
+    bool pairs = task->pairs && grade->comparison.percent > GI_GRADE_ISOLATED;
+    if (status == GLINT_OK && pairs && search->best_single > 0.03 * search->whole) {
         status = list_pairs(search);
         if (status == GLINT_OK) status = weigh_finalists(search);
     }
