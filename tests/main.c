@@ -50,6 +50,8 @@
     X(golden) \
     X(tiles) \
     X(api) \
+    X(mistake) \
+    X(compare) \
     X(grade) \
     X(load) \
     X(life) \

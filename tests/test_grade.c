@@ -284,9 +284,9 @@ static void matrix(void) {
 static void pairs(void) {
     static const GlintMistake often[] = {GLINT_MISTAKE_SHIFTED, GLINT_MISTAKE_WINDOW_SWAPPED,
         GLINT_MISTAKE_NORMALS_INWARD, GLINT_MISTAKE_NO_SHADOWS, GLINT_MISTAKE_NO_SPECULAR,
-        GLINT_MISTAKE_FLIPPED, GLINT_MISTAKE_GAMMA_MISSING, GLINT_MISTAKE_BRIGHTNESS};
+        GLINT_MISTAKE_GAMMA_MISSING};
     enum { OFTEN_COUNT = sizeof often / sizeof often[0] };
-    static const int used[] = {0, 1, 3};
+    static const int used[] = {1, 3};
     static Page page;
     if (is_slow()) return;
     say(&page, "| scene | pairs | both named | unclear, among others | unclear | one named | taken "
