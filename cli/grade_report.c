@@ -23,9 +23,9 @@ void cli_grade_print_text(const CliGradeReport *report) {
     printf("  apart    %.2f of 255 in the mean, %d at most; FLIP %.4f\n", comparison->mean,
         comparison->max, comparison->flip);
     if (grade->verdict == GLINT_VERDICT_SAME) return;
-    printf("  tried    %d %s%s\n", grade->tried, grade->tried == 1 ? "mistake" : "mistakes",
-        grade->from_scene ? " and pairs of mistakes"
-                          : ", of finished pictures only, since the reference is a picture");
+    printf("  tried    %d %s", grade->tried, grade->tried == 1 ? "mistake" : "mistakes");
+    if (grade->pairs_tried > 0) printf(" and %d pairs", grade->pairs_tried);
+    puts(grade->from_scene ? "" : ", of finished pictures only: the reference is a picture");
 }
 
 static void print_hypotheses(const GlintGrade *grade) {
@@ -66,9 +66,10 @@ void cli_grade_print_json(const CliGradeReport *report) {
         report->max_percent, report->tolerance);
     printf(", \"mean\": %.6f, \"max\": %d, \"relative\": %.6f, \"flip\": %.6f", comparison->mean,
         comparison->max, comparison->relative, comparison->flip);
-    printf(", \"size\": [%d, %d], \"right_size\": [%d, %d], \"from_scene\": %s, \"tried\": %d, ",
+    printf(", \"size\": [%d, %d], \"right_size\": [%d, %d], \"from_scene\": %s, \"tried\": %d, "
+           "\"pairs_tried\": %d, ",
         grade->reference.width, grade->reference.height, grade->width, grade->height,
-        bool_name(grade->from_scene), grade->tried);
+        bool_name(grade->from_scene), grade->tried, grade->pairs_tried);
     print_hypotheses(grade);
     printf("}\n");
 }

@@ -136,28 +136,34 @@ static GlintStatus no_light(void *user, int light, float *pixels, GlintError *er
     return GLINT_OK;
 }
 
-/* Another size: each pixel is what stands at its centre in the reference, between the four that are
- * next. */
+/* The values at a place counted in pixels, between the four pixels that are next; added to sum. */
+static void add_between(
+    const float *from, int width, int height, double u, double v, double sum[3]) {
+    int column = (int)floor(u), row = (int)floor(v);
+    for (int k = 0; k < 4; k++) {
+        size_t at_row = (size_t)clamp(row + k / 2, height);
+        const float *pixel =
+            from + 3 * (at_row * (size_t)width + (size_t)clamp(column + k % 2, width));
+        double across = k % 2 == 0 ? column + 1 - u : u - column;
+        double down = k / 2 == 0 ? row + 1 - v : v - row;
+        for (int i = 0; i < 3; i++) sum[i] += across * down * (double)pixel[i];
+    }
+}
+
+/* Another size: each pixel is the mean over its square, of as many places as the reference has
+ * pixels there. */
 static void resize(
     const float *from, int from_width, int from_height, const GlintImage *like, float *to) {
+    int across = (from_width - 1) / like->width + 1, down = (from_height - 1) / like->height + 1;
     for (int y = 0; y < like->height; y++) {
-        double v = (y + 0.5) * from_height / like->height - 0.5;
-        int row = (int)floor(v);
         for (int x = 0; x < like->width; x++, to += 3) {
-            double u = (x + 0.5) * from_width / like->width - 0.5;
-            int column = (int)floor(u);
-            for (int i = 0; i < 3; i++) {
-                double sum = 0;
-                for (int k = 0; k < 4; k++) {
-                    size_t at_row = (size_t)clamp(row + k / 2, from_height);
-                    size_t at =
-                        at_row * (size_t)from_width + (size_t)clamp(column + k % 2, from_width);
-                    double across = k % 2 == 0 ? column + 1 - u : u - column;
-                    double down = k / 2 == 0 ? row + 1 - v : v - row;
-                    sum += across * down * (double)from[3 * at + (size_t)i];
-                }
-                to[i] = (float)sum;
+            double sum[3] = {0, 0, 0};
+            for (int k = 0; k < across * down; k++) {
+                double u = (x + (k % across + 0.5) / across) * from_width / like->width - 0.5;
+                double v = (y + (k / across + 0.5) / down) * from_height / like->height - 0.5;
+                add_between(from, from_width, from_height, u, v, sum);
             }
+            for (int i = 0; i < 3; i++) to[i] = (float)(sum[i] / (across * down));
         }
     }
 }

@@ -800,14 +800,14 @@ typedef struct GlintGrade {
      * first `rivals` of them are about equally good. */
     GlintHypothesis hypotheses[GLINT_HYPOTHESIS_LIMIT];
     int hypothesis_count, rivals;
-    int tried;            /* mistakes and pairs of them */
-    bool from_scene;      /* false: the reference is a picture, so mistakes of a finished
-                             picture alone were tried */
-    bool size_differs;    /* the picture has not the size it should have; then all the rest is
-                             about a right picture of its size */
-    int width, height;    /* as it should be */
-    GlintImage reference; /* the right picture, at the size of the picture; to be freed with
-                             glint_image_free */
+    int tried, pairs_tried; /* mistakes, and pairs of them */
+    bool from_scene;        /* false: the reference is a picture, so mistakes of a finished
+                               picture alone were tried */
+    bool size_differs;      /* the picture has not the size it should have; then all the rest is
+                               about a right picture of its size */
+    int width, height;      /* as it should be */
+    GlintImage reference;   /* the right picture, at the size of the picture; to be freed with
+                               glint_image_free */
 } GlintGrade;
 
 typedef struct GlintGradeDesc {

@@ -134,8 +134,10 @@ static void add_unclear(Text *text, const GlintGrade *grade) {
 
 static void add_verdict(Text *text, const GlintGrade *grade) {
     if (grade->size_differs) {
-        add(text, "the size is wrong, it should be %d x %d; apart from that: ", grade->width,
-            grade->height);
+        const GlintImage *own = &grade->reference;
+        bool exchanged = own->width == grade->height && own->height == grade->width;
+        add(text, "the size is wrong, it should be %d x %d%s; apart from that: ", grade->width,
+            grade->height, exchanged ? " (width and height are exchanged)" : "");
     }
     switch (grade->verdict) {
     case GLINT_VERDICT_SAME: add(text, "the same"); break;

@@ -240,7 +240,7 @@ static GlintMistakes both(const GlintMistakes *a, const GlintMistakes *b) {
 }
 
 static void consider(Search *search, const GlintMistakes *mistakes, double left) {
-    search->grade->tried++;
+    search->grade->pairs_tried++;
     int at = search->finalist_count;
     while (at > 0 && search->finalists[at - 1].left > left) at--;
     if (at == FINALISTS) return;
