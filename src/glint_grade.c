@@ -73,8 +73,8 @@ static GlintStatus makes_difference(
     return good ? GLINT_OK : gi_error_memory(error);
 }
 
-static GlintStatus draw_scene(
-    void *user, const GlintMistakes *mistakes, float *pixels, bool *differs, GlintError *error) {
+static GlintStatus draw_scene(void *user, const GlintMistakes *mistakes,
+    const GiGradeWindow *window, float *pixels, bool *differs, GlintError *error) {
     Grading *grading = user;
     GlintStatus status = makes_difference(grading, mistakes, differs, error);
     if (status != GLINT_OK || !*differs) return status;
@@ -88,6 +88,10 @@ static GlintStatus draw_scene(
     }
     GlintRenderDesc desc = render_desc(grading);
     desc.mistakes = *mistakes;
+    desc.crop_x = window->x;
+    desc.crop_y = window->y;
+    desc.crop_width = window->width;
+    desc.crop_height = window->height;
     return glint_render(scene, &desc, pixels, error);
 }
 
@@ -103,9 +107,10 @@ static GlintStatus draw_light(void *user, int light, float *pixels, GlintError *
 static int clamp(int i, int count) { return i < 0 ? 0 : i < count ? i : count - 1; }
 
 /* Where there is no scene to draw, a picture can still be shifted: by half pixels between two. */
-static GlintStatus shift_picture(
-    void *user, const GlintMistakes *mistakes, float *pixels, bool *differs, GlintError *error) {
+static GlintStatus shift_picture(void *user, const GlintMistakes *mistakes,
+    const GiGradeWindow *window, float *pixels, bool *differs, GlintError *error) {
     const Grading *grading = user;
+    (void)window; /* only pairs of a scene's mistakes ask for less than all */
     (void)error;
     int width = grading->image->width, height = grading->image->height;
     *differs = true;
@@ -229,7 +234,7 @@ static void report(void *user, double fraction) {
 }
 
 static GlintStatus search(Grading *grading, GlintGrade *grade, GlintError *error) {
-    enum { CHEAP_SAMPLES = 400 * 400 }; /* a few milliseconds */
+    enum { CHEAP_SAMPLES = 600 * 600 };
     const GlintImage *image = grading->image;
     GiGradeTask task = {.memory = &grading->memory,
         .width = image->width,

@@ -11,6 +11,11 @@ enum { GI_GRADE_LIGHT_LIMIT = 64 };
 /* Up to so many percent of the pixels may differ for no other reason than rounding at edges. */
 #define GI_GRADE_ISOLATED 0.1
 
+/* A part of a picture. */
+typedef struct GiGradeWindow {
+    int x, y, width, height;
+} GiGradeWindow;
+
 typedef struct GiGradeTask {
     GiMemory *memory;
     int width, height;
@@ -21,10 +26,11 @@ typedef struct GiGradeTask {
     bool many_pairs;                   /* all of them, since drawing costs little */
     int light_count;                   /* lights beyond GI_GRADE_LIGHT_LIMIT are not tried */
     bool placed[GI_GRADE_LIGHT_LIMIT]; /* the light has a place, and casts shadows */
-    /* Draws with mistakes of the scene (never those of a finished picture) into pixels. *differs
-     * false: they change nothing in this scene, and nothing was drawn. */
-    GlintStatus (*draw)(
-        void *user, const GlintMistakes *mistakes, float *pixels, bool *differs, GlintError *error);
+    /* Draws the window with mistakes of the scene (never those of a finished picture) into pixels,
+     * which are those of the window alone. *differs false: they change nothing in this scene, and
+     * nothing was drawn. */
+    GlintStatus (*draw)(void *user, const GlintMistakes *mistakes, const GiGradeWindow *window,
+        float *pixels, bool *differs, GlintError *error);
     /* Draws, without mistakes, what the light makes alone; from 1. */
     GlintStatus (*draw_light)(void *user, int light, float *pixels, GlintError *error);
     void (*progress)(void *user, double fraction);
@@ -41,6 +47,10 @@ GlintStatus gi_grade_search(const GiGradeTask *task, GlintGrade *grade, GlintErr
  * is beyond the tolerance. Of every step-th pixel across and down. */
 double gi_grade_left(const GiGradeTask *task, const uint8_t *mine, const float *pixels,
     const GlintMistakes *mistakes, int tolerance, int step);
+
+/* The same where only the window was drawn, without mistakes of the finished picture. */
+double gi_grade_left_in(const GiGradeTask *task, const uint8_t *mine, const float *pixels,
+    const GiGradeWindow *window, int tolerance);
 
 /* The factor that brings pixels closest to mine; 1 when there is nothing to tell it by. */
 double gi_grade_factor(const GiGradeTask *task, const uint8_t *mine, const float *pixels, int step);

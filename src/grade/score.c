@@ -38,6 +38,21 @@ double gi_grade_left(const GiGradeTask *task, const uint8_t *mine, const float *
     return (double)sum;
 }
 
+double gi_grade_left_in(const GiGradeTask *task, const uint8_t *mine, const float *pixels,
+    const GiGradeWindow *window, int tolerance) {
+    int64_t sum = 0;
+    for (int y = 0; y < window->height; y++) {
+        size_t row = (size_t)(window->y + y) * (size_t)task->width + (size_t)window->x;
+        for (int x = 0; x < window->width; x++, pixels += 3) {
+            uint8_t bytes[3];
+            gi_gamma_encode(pixels, 3, bytes);
+            int difference = apart(bytes, mine + 3 * (row + (size_t)x));
+            if (difference > tolerance) sum += difference - tolerance;
+        }
+    }
+    return (double)sum;
+}
+
 double gi_grade_factor(
     const GiGradeTask *task, const uint8_t *mine, const float *pixels, int step) {
     enum { DARK = 8, BRIGHT = 247 }; /* beyond, bytes tell little or nothing of the value */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * First every mistake alone. Where one explains nearly all, that is it; otherwise pairs. A pair of
  * a mistake of the scene and one of the finished picture costs one drawing for all of the latter;
- * of two mistakes of the scene each pair is drawn. Pairs are weighed by some of the pixels, and
- * those that do best by all. */
+ * of two mistakes of the scene each pair is drawn, but only a window where the best mistake alone
+ * leaves most. Pairs are so weighed by some of the pixels, and those that do best by all. */
 #include "grade/grade.h"
 
 #include "base/error.h"
@@ -17,6 +17,7 @@ enum {
     CANDIDATE_LIMIT = 256,
     LIGHTS_TRIED = 16,
     SAMPLED_PIXELS = 8192,
+    SMALL_PICTURE = 100 * 100,
     FINALISTS = 12,
     PARTNERS = 6 /* of the scene's mistakes, those that do best alone */
 };
@@ -31,7 +32,7 @@ typedef struct Candidate {
 /* A pair to be weighed by all pixels. */
 typedef struct Finalist {
     GlintMistakes mistakes;
-    double left; /* of the sampled pixels */
+    double left; /* a part of what the right picture leaves there */
 } Finalist;
 
 typedef struct Search {
@@ -44,6 +45,9 @@ typedef struct Search {
     int tolerance, step;
     double whole;           /* what the right picture leaves */
     double best_single;     /* what the best mistake leaves */
+    double whole_sampled;   /* what the right picture leaves of every step-th pixel */
+    double whole_inside;    /* ... and of the window */
+    GiGradeWindow window;   /* that is drawn for pairs */
     int scene_count, count; /* candidates: those of the scene come first */
     Candidate candidates[CANDIDATE_LIMIT];
     int finalist_count;
@@ -128,13 +132,15 @@ static GlintMistakes of_scene(GlintMistakes mistakes) {
 /* Draws with the mistakes of the scene. *pixels: what is drawn, or null when they change nothing.
  */
 static GlintStatus draw(Search *search, GlintMistakes mistakes, const float **pixels) {
+    const GiGradeTask *task = search->task;
     const GlintMistakes scene = of_scene(mistakes);
+    const GiGradeWindow all = {0, 0, task->width, task->height};
     bool differs = false;
-    *pixels = search->task->right;
+    *pixels = task->right;
     if (scene.set == 0) return GLINT_OK;
     GlintStatus status =
-        search->task->draw(search->task->user, &scene, search->drawn, &differs, search->error);
-    bool same = !differs || memcmp(search->drawn, search->task->right, search->size) == 0;
+        task->draw(task->user, &scene, &all, search->drawn, &differs, search->error);
+    bool same = !differs || memcmp(search->drawn, task->right, search->size) == 0;
     *pixels = same ? NULL : search->drawn;
     return status;
 }
@@ -256,7 +262,8 @@ static void pair_with_picture(
         const Candidate *candidate = &search->candidates[i];
         if (!candidate->active) continue;
         GlintMistakes pair = fitted(search, pixels, both(a, &candidate->mistakes));
-        consider(search, &pair, left_of(search, pixels, &pair, search->step));
+        consider(
+            search, &pair, left_of(search, pixels, &pair, search->step) / search->whole_sampled);
     }
 }
 
@@ -279,21 +286,71 @@ static GlintStatus pair_with_scene(Search *search, int first) {
         if (!b->active || b->mistakes.set == a->mistakes.set) continue;
         if (!partner && !is_partner(search, i)) continue;
         GlintMistakes pair = both(&a->mistakes, &b->mistakes);
-        const float *pixels;
-        GlintStatus status = draw(search, pair, &pixels);
+        bool differs = false;
+        GlintStatus status = search->task->draw(
+            search->task->user, &pair, &search->window, search->drawn, &differs, search->error);
         if (status != GLINT_OK) return status;
-        if (pixels != NULL) consider(search, &pair, left_of(search, pixels, &pair, search->step));
+        if (!differs) continue;
+        double left = gi_grade_left_in(
+            search->task, search->mine, search->drawn, &search->window, search->tolerance);
+        consider(search, &pair, left / search->whole_inside);
     }
     return GLINT_OK;
 }
 
+/* What a picture leaves in the window. */
+static double left_inside(const Search *search, const float *pixels) {
+    const GiGradeTask *task = search->task;
+    const GiGradeWindow *window = &search->window;
+    double sum = 0;
+    for (int y = window->y; y < window->y + window->height; y++) {
+        const GiGradeWindow row = {window->x, y, window->width, 1};
+        const float *from = pixels + 3 * ((size_t)y * (size_t)task->width + (size_t)window->x);
+        sum += gi_grade_left_in(task, search->mine, from, &row, search->tolerance);
+    }
+    return sum;
+}
+
+/* Of a large picture a ninth: that where the best mistake of the scene leaves most. */
+static GlintStatus choose_window(Search *search) {
+    const GiGradeTask *task = search->task;
+    const GlintMistakes none = {0};
+    const Candidate *best = NULL;
+    for (int i = 0; i < search->scene_count; i++) {
+        const Candidate *other = &search->candidates[i];
+        if (other->active && (best == NULL || other->left < best->left)) best = other;
+    }
+    int parts = (int64_t)task->width * task->height > SMALL_PICTURE ? 3 : 1;
+    const float *pixels = task->right;
+    GlintStatus status = GLINT_OK;
+    if (best != NULL && best->left < search->whole) status = draw(search, best->mistakes, &pixels);
+    if (status != GLINT_OK) return status;
+    double most = -1;
+    GiGradeWindow chosen = {0};
+    for (int i = 0; i < parts * parts; i++) {
+        int x = i % parts * task->width / parts, y = i / parts * task->height / parts;
+        search->window = (GiGradeWindow){x, y, (i % parts + 1) * task->width / parts - x,
+            (i / parts + 1) * task->height / parts - y};
+        double left = left_inside(search, pixels);
+        if (left <= most) continue;
+        most = left;
+        chosen = search->window;
+    }
+    search->window = chosen;
+    search->whole_inside = fmax(left_inside(search, task->right), 1);
+    search->whole_sampled = fmax(left_of(search, task->right, &none, search->step), 1);
+    return GLINT_OK;
+}
+
 static GlintStatus list_pairs(Search *search) {
+    GlintStatus status = choose_window(search);
+    if (status != GLINT_OK) return status;
     for (int i = 0; i < search->scene_count; i++) {
         const Candidate *a = &search->candidates[i];
         report(search, SINGLES_PART + (1 - SINGLES_PART) * i / search->scene_count);
         if (!a->active) continue;
         const float *pixels;
-        GlintStatus status = draw(search, a->mistakes, &pixels);
+        status = draw(search, a->mistakes, &pixels);
         if (status == GLINT_OK && pixels != NULL) {
             pair_with_picture(search, &a->mistakes, pixels, search->scene_count);
             status = pair_with_scene(search, i);
