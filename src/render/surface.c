@@ -248,6 +248,7 @@ static GiVec texture_color(const GiWorld *world, const Met *met, GiVec point, ui
     const GiTexture *texture = &world->scene->textures.data[index];
     double uv[2];
     gi_shape_texcoord(&world->shapes, met->shape, met->instance, point, uv);
+    if (world->rules->texture_flipped) uv[1] = 1 - uv[1];
     return gi_texture_color(
         &world->scene->pictures.data[texture->picture], texture->wrap, uv[0], uv[1]);
 }
@@ -401,7 +402,8 @@ static void meet_group(const GiStage *stage, uint32_t key, const uint32_t *rays,
     uint32_t index = key >> KEY_KIND_BITS, kind = key & ((1 << KEY_KIND_BITS) - 1);
     const GiShader *shader = &stage->world->scene->shaders.data[index];
     bool plain = is_plain(stage->world, shader);
-    bool dark = plain && shader->type != GLINT_SHADER_RGB_NORMALS && scratch->seen == NULL;
+    bool dark = plain && shader->type != GLINT_SHADER_RGB_NORMALS && scratch->seen == NULL &&
+                stage->world->shapes.normal_faults == 0;
     if (dark && kind != GI_SHAPE_PLACED) {
         meet_dark(stage, rays, count, index);
         return;

@@ -227,7 +227,8 @@ static GiSurfacePoint triangle_point(
         for (int i = 0; i < 3; i++) {
             blend = gi_along(blend, corner_vec(triangles->normals[row[i]]), part[i]);
         }
-        if (!gi_vec_is_zero(blend)) at.normal = gi_normalize(blend);
+        if (gi_vec_is_zero(blend)) return at;
+        at.normal = shapes->normal_faults & GI_NORMAL_LENGTH ? blend : gi_normalize(blend);
     }
     return at;
 }
@@ -271,6 +272,28 @@ static void enter(const GiTransform *transform, GiVec *origin, GiVec *direction)
     *direction = gi_affine_vector(&transform->to_object, *direction);
 }
 
+/* Normals as they should not be. What is in object space, and not transformed yet. */
+static void spoil_inside(const GiShapes *shapes, GiShapeRef ref, GiSurfacePoint *at) {
+    if (shapes->normal_faults & GI_NORMAL_FLAT) at->normal = at->geometric;
+    if (!(shapes->normal_faults & GI_NORMAL_LENGTH)) return;
+    if (gi_shape_kind(ref) == GI_SHAPE_SPHERE) {
+        at->normal = gi_scale(at->normal, shapes->spheres[gi_shape_index(ref)].radius);
+    }
+}
+
+static GiVec spoiled_normal(const GiShapes *shapes, const GiTransform *transform, GiVec normal) {
+    normal = shapes->normal_faults & GI_NORMAL_MATRIX
+                 ? gi_affine_vector(&transform->to_world, normal)
+                 : gi_affine_transposed_vector(&transform->to_object, normal);
+    return shapes->normal_faults & GI_NORMAL_LENGTH ? normal : gi_normalize(normal);
+}
+
+static void spoil_outside(const GiShapes *shapes, GiVec direction, GiSurfacePoint *at) {
+    bool facing_wanted = shapes->normal_faults & GI_NORMAL_FACING;
+    if (facing_wanted && gi_dot(at->normal, direction) > 0) at->normal = gi_negate(at->normal);
+    if (shapes->normal_faults & GI_NORMAL_INWARD) at->normal = gi_negate(at->normal);
+}
+
 /* Out of the space of a placed shape or an instance. at->error is still the size of the numbers the
  * point is made of: those in object space are stretched by the transform, those of the way there
  * shrunk and stretched again; the product of the two norms bounds both. */
@@ -302,11 +325,19 @@ GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref, uint32_t i
     GiVec origin, GiVec direction, double t, bool second_nappe_geometric) {
     const GiTransform *transforms[2];
     int count = transforms_of(shapes, ref, instance, transforms);
+    GiShapeRef own = gi_shape_unplaced(shapes, ref);
+    GiVec seen_along = direction;
     for (int i = 0; i < count; i++) enter(transforms[i], &origin, &direction);
-    GiSurfacePoint at = unplaced_point(
-        shapes, gi_shape_unplaced(shapes, ref), origin, direction, t, second_nappe_geometric);
+    GiSurfacePoint at = unplaced_point(shapes, own, origin, direction, t, second_nappe_geometric);
     at.error += gi_largest(at.point);
-    for (int i = count; i-- > 0;) leave(transforms[i], &at);
+    bool spoiled = shapes->normal_faults != 0;
+    if (spoiled) spoil_inside(shapes, own, &at);
+    for (int i = count; i-- > 0;) {
+        GiVec normal = at.normal;
+        leave(transforms[i], &at);
+        if (spoiled) at.normal = spoiled_normal(shapes, transforms[i], normal);
+    }
+    if (spoiled) spoil_outside(shapes, seen_along, &at);
     at.error *= GI_SURFACE_ERROR;
     return at;
 }

@@ -4,6 +4,7 @@
 import ctypes
 import enum
 import os
+import itertools
 import re
 import shutil
 import subprocess
@@ -47,10 +48,12 @@ def c_constant(kind, member):
     text = HEADER.read_text()
     words = [word.upper() for word in re.findall(r"[A-Z][a-z0-9]*", kind.__name__)]
     short = member.name[1:] if re.match(r"Y\d", member.name) else member.name
+    listed = re.search(rf"\bX\({short}\b", text)
     for count in range(len(words), -1, -1):
-        name = "_".join(["GLINT", *words[:count], short])
-        if re.search(rf"\b{name}\b", text):
-            return name
+        for part in itertools.combinations(words, count):
+            prefix = "_".join(["GLINT", *part, ""])
+            if re.search(rf"\b{prefix}{short}\b", text) or (listed and prefix + "##" in text):
+                return prefix + short
     return "GLINT_" + short
 
 
