@@ -265,10 +265,9 @@ const CliVerb cli_verb_grade = {.name = "grade",
     .about = "Compares a PICTURE (PNG, JPEG, PFM or EXR) with what it should be, a scene or\n"
              "another picture, and finds out which typical mistake explains the difference,\n"
              "or which two. Of a scene it draws what each mistake would have made.",
-    .notes =
-        "Here that means: 0 when at most P % of the pixels differ, 1 when more do or the sizes\n"
-        "differ, 2 when the two cannot be compared, 3 when the machine fails.\n"
-        "The mistakes are those of `glint render --break list`.",
+    .notes = "Here that means: 0 when at most P % of the pixels differ, 1 when more do or the\n"
+             "sizes differ, 2 when the two cannot be compared, 3 when the machine fails.\n"
+             "The mistakes are those of `glint render --break list`.",
     .example_text = "grade a student's picture of a scene",
     .example = "glint grade mine.png scenes/solids.xml",
     .options = option_table,

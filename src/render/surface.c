@@ -300,8 +300,13 @@ static bool is_plain(const GiWorld *world, const GiShader *shader) {
 }
 
 static inline GiSurfacePoint point_of(const GiWorld *world, const Met *met) {
-    return gi_shape_point(&world->shapes, met->shape, met->instance, met->origin, met->direction,
-        met->t, world->rules->cone_geometric);
+    GiSurfacePoint at = gi_shape_point(&world->shapes, met->shape, met->instance, met->origin,
+        met->direction, met->t, world->rules->cone_geometric);
+    if (world->shapes.normal_faults != 0) {
+        gi_shape_spoil_normal(
+            &world->shapes, met->shape, met->instance, met->origin, met->direction, &at);
+    }
+    return at;
 }
 
 /* Keeps what a camera ray met, for pictures of it. */
@@ -354,6 +359,9 @@ static inline void meet_plain(const GiStage *stage, uint32_t i, uint32_t shader_
     GiVec direction = gi_vec(bundle->dx[i], bundle->dy[i], bundle->dz[i]);
     GiSurfacePoint at = gi_shape_point(&world->shapes, shape, bundle->instance[i], origin,
         direction, bundle->t[i], world->rules->cone_geometric);
+    if (world->shapes.normal_faults != 0) {
+        gi_shape_spoil_normal(&world->shapes, shape, bundle->instance[i], origin, direction, &at);
+    }
     uint32_t pixel = bundle->pixel[i];
     show_first(stage, pixel, shine_of(stage, shader, at.normal));
     if (scratch->seen != NULL) {

@@ -245,6 +245,10 @@ typedef struct GiSurfacePoint {
 GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref, uint32_t instance,
     GiVec origin, GiVec direction, double t, bool second_nappe_geometric);
 
+/* Puts the normal as normal_faults have it in the place of the right one, of the same ray. */
+void gi_shape_spoil_normal(const GiShapes *shapes, GiShapeRef ref, uint32_t instance, GiVec origin,
+    GiVec direction, GiSurfacePoint *at);
+
 /* Texture coordinates by a sphere's unit normal. */
 void gi_sphere_texcoord(GiVec normal, double uv[2]);
 
