@@ -21,16 +21,20 @@ static const char *named_verb = "";
 
 void cli_message_set_verb(const char *name) { named_verb = name != NULL ? name : ""; }
 
-bool cli_message_on_terminal(void) {
+static bool is_terminal(int fd) {
     const char *terminal = getenv("TERM");
-    return isatty(STDERR_FILENO) && terminal != NULL && strcmp(terminal, "dumb") != 0;
+    return isatty(fd) && terminal != NULL && strcmp(terminal, "dumb") != 0;
 }
 
+bool cli_message_on_terminal(void) { return is_terminal(STDERR_FILENO); }
+
 /* https://no-color.org: set and not empty. */
-static bool colours_wanted(void) {
+static bool takes_colours(int fd) {
     const char *no_color = getenv("NO_COLOR");
-    return cli_message_on_terminal() && (no_color == NULL || no_color[0] == '\0');
+    return is_terminal(fd) && (no_color == NULL || no_color[0] == '\0');
 }
+
+bool cli_message_output_in_colour(void) { return takes_colours(STDOUT_FILENO); }
 
 CLI_PRINTF(1, 0) static void say(const char *format, va_list arguments) {
     fputs("glint: ", stderr);
@@ -112,13 +116,30 @@ void cli_message_diagnostic(const GlintDiagnostic *diagnostic) {
         return;
     }
     glint_diagnostic_format(diagnostic, text, size);
-    if (colours_wanted()) {
+    if (takes_colours(STDERR_FILENO)) {
         disarm(text);
         put_in_colour(diagnostic, text);
     } else {
         fputs(text, stderr);
     }
     free(text);
+}
+
+void cli_message_finding(void *user, const GlintDiagnostic *diagnostic) {
+    CliFindings *findings = user;
+    findings->error_count++;
+    cli_message_diagnostic(diagnostic);
+}
+
+CliStatus cli_message_failure(
+    const char *name, const CliFindings *findings, const GlintError *error) {
+    int count = findings->error_count;
+    if (count > 0) {
+        fprintf(stderr, "%s: %d %s\n", name, count, count == 1 ? "error" : "errors");
+    } else {
+        cli_message_error("%s: %s", name, error->message);
+    }
+    return error->status == GLINT_ERROR_SCENE ? CLI_INPUT : CLI_MACHINE;
 }
 
 CliStatus cli_message_flush_output(void) {

@@ -59,7 +59,9 @@
     X(show) \
     X(elements) \
     X(files) \
+    X(format) \
     X(triangle) \
+    X(upgrade) \
     X(watch) \
     X(watch_camera) \
     X(watch_screen)

@@ -87,7 +87,7 @@ void gi_shading_finish_shader(GiReader *reader, GiFrame *frame, GiFrame *parent)
         return;
     }
     bool used = is_plain_surface(parent) || frame->element->slot == GI_SLOT_SUBSTRATE;
-    if (!used && reader->tags.data[frame->name] == '\0') {
+    if (!used && !gi_reader_is_named(reader, frame)) {
         gi_object_remember_idle(reader, frame);
         return;
     }
