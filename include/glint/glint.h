@@ -895,8 +895,9 @@ typedef struct GlintRule {
     const char *help;    /* why it is told, and what to do: sentences */
 } GlintRule;
 
-/* Every rule, those of errors first; null behind the last. Lives for ever. */
-GLINT_API const GlintRule *glint_rule_at(int index);
+/* The rule at an index from 0 on, those of errors first. False behind the last. All texts live as
+ * long as the program. */
+GLINT_API bool glint_rule_at(int index, GlintRule *rule);
 
 /* Looks for what is legal in a committed scene but surely a mistake, and reports it through the
  * scene's diagnostic callback, on this thread, in the order of the file: warnings and notes, never

@@ -1040,7 +1040,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "glint_scene_light": (c_bool, [c_void_p, c_uint32, POINTER(GlintLightDesc)]),
     "glint_scene_background": (c_bool, [c_void_p, c_void_p]),
     "glint_scene_stats": (None, [c_void_p, POINTER(GlintStats)]),
-    "glint_rule_at": (POINTER(GlintRule), [c_int]),
+    "glint_rule_at": (c_bool, [c_int, POINTER(GlintRule)]),
     "glint_scene_check": (c_int, [c_void_p, POINTER(GlintMonitor), POINTER(GlintError)]),
     "glint_save_desc_default": (GlintSaveDesc, []),
     "glint_image_save": (c_int, [POINTER(GlintImage), c_char_p, POINTER(GlintSaveDesc),
