@@ -75,8 +75,6 @@ struct GiTileScratch {
     GiFlight chunk[GI_FLIGHT_CHUNK];
     GI_ARRAY(GiFlight) flights;
     GI_ARRAY(GiFlightRange) ranges;
-    uint32_t *head; /* for each shader, while points are sorted: the first of its rays */
-    size_t shader_count;
     int segment_count;
     bool weighted; /* factors are in use */
     bool shared;   /* points may have a pixel in common, so light goes to the pixels at once */
