@@ -13,6 +13,7 @@
 #define BOLD  "\033[1m"
 #define RED   "\033[1;31m"
 #define AMBER "\033[1;33m"
+#define CYAN  "\033[1;36m"
 #define GREEN "\033[1;32m"
 #define PLAIN "\033[0m"
 
@@ -63,10 +64,15 @@ static void put_coloured(const char *colour, const char *text, size_t size) {
     fputs(PLAIN, stderr);
 }
 
-/* "path:line:column: error: message": the place bold, the severity red or amber. */
+static const struct {
+    const char *word, *colour;
+} severities[] = {[GLINT_SEVERITY_ERROR] = {"error:", RED},
+    [GLINT_SEVERITY_WARNING] = {"warning:", AMBER},
+    [GLINT_SEVERITY_NOTE] = {"note:", CYAN}};
+
+/* "path:line:column: error: message": the place bold, the severity in its colour. */
 static void put_heading(const GlintDiagnostic *diagnostic, const char *line, size_t size) {
-    bool error = diagnostic->severity == GLINT_SEVERITY_ERROR;
-    const char *word = error ? "error:" : "warning:";
+    const char *word = severities[diagnostic->severity].word;
     size_t place = strlen(diagnostic->path), word_size = strlen(word);
     /* The path may itself contain the word, so the search begins behind it. */
     while (place + word_size <= size && strncmp(line + place, word, word_size) != 0) place++;
@@ -75,7 +81,7 @@ static void put_heading(const GlintDiagnostic *diagnostic, const char *line, siz
         return;
     }
     put_coloured(BOLD, line, place);
-    put_coloured(error ? RED : AMBER, line + place, word_size);
+    put_coloured(severities[diagnostic->severity].colour, line + place, word_size);
     fwrite(line + place + word_size, 1, size - place - word_size, stderr);
 }
 
@@ -84,10 +90,10 @@ static void put_in_colour(const GlintDiagnostic *diagnostic, const char *text) {
         size_t size = strcspn(text, "\n");
         if (row == 0) {
             put_heading(diagnostic, text, size);
-        } else if (row == 1) {
-            fwrite(text, 1, size, stderr);
-        } else {
+        } else if (row == 2) { /* the caret, behind the excerpt */
             put_coloured(GREEN, text, size);
+        } else {
+            fwrite(text, 1, size, stderr);
         }
         fputc('\n', stderr);
         text += size + (text[size] == '\n');

@@ -29,7 +29,8 @@ camera: scene
 reader: scene mesh shape light texture port
 format: reader scene mesh shape light texture port
 render: sample light texture shade camera kernel accel image sched scene shape port
-glint.c: $all glint_scene.h
+check: render reader accel camera kernel scene shape light mesh texture sched
+glint.c: $all check glint_scene.h
 glint_build.c: $all glint_scene.h
 glint_format.c: $all
 glint_explain.c: $all glint_scene.h

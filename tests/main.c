@@ -55,6 +55,8 @@
     X(load) \
     X(life) \
     X(exr) \
+    X(check) \
+    X(show) \
     X(elements) \
     X(files) \
     X(format) \

@@ -78,7 +78,11 @@ typedef struct GlintError {
 /* What the status says, for example "not enough memory". Never null. */
 GLINT_API const char *glint_status_text(GlintStatus status);
 
-typedef enum GlintSeverity { GLINT_SEVERITY_ERROR, GLINT_SEVERITY_WARNING } GlintSeverity;
+typedef enum GlintSeverity {
+    GLINT_SEVERITY_ERROR,
+    GLINT_SEVERITY_WARNING, /* legal, but surely a mistake */
+    GLINT_SEVERITY_NOTE     /* may well be meant */
+} GlintSeverity;
 
 /* One finding in a scene file. Loading reports all of them, not just the first. */
 typedef struct GlintDiagnostic {
@@ -90,13 +94,16 @@ typedef struct GlintDiagnostic {
     const char *excerpt; /* the line, cut to a window round the place; null when there is none */
     int caret;           /* index into excerpt, in characters, of the place */
     int caret_length;    /* at least 1 */
+    const char *rule;    /* the name of its GlintRule; null: none */
+    const char *hint;    /* how to mend it: one sentence without a full stop; null: nothing */
 } GlintDiagnostic;
 
 typedef void (*GlintDiagnosticFn)(void *user, const GlintDiagnostic *diagnostic);
 
 /* Writes the diagnostic the way a compiler prints it, "path:line:column: error: message", the
- * excerpt and a caret under the place, each line ended by a newline. At most size bytes are
- * written, always zero-terminated when size > 0. Returns the length without the cut. */
+ * excerpt and a caret under the place, then the hint, each line ended by a newline. Warnings and
+ * notes end with their rule in brackets. At most size bytes are written, always zero-terminated
+ * when size > 0. Returns the length without the cut. */
 GLINT_API size_t glint_diagnostic_format(
     const GlintDiagnostic *diagnostic, char *buffer, size_t size);
 
@@ -477,6 +484,24 @@ typedef enum GlintSampling {
     GLINT_SAMPLING_RANDOM /* plain random numbers: noisier, to compare with */
 } GlintSampling;
 
+/* What pixels show: the picture, or something that explains it. The values are those that the
+ * picture is made of. They are found by one ray through the middle of each pixel, whatever the
+ * samples; the cost is that of as many samples as the desc asks for, 0: of one. light, and the
+ * outputs beside the pixels, must be left alone.
+ * docs/views.md has pictures. */
+typedef enum GlintShow {
+    GLINT_SHOW_PICTURE,
+    GLINT_SHOW_NORMAL, /* (normal + 1) / 2, as RGBNormals has it */
+    GLINT_SHOW_DEPTH,  /* distance from the ray's origin: near white, far black */
+    GLINT_SHOW_UV,     /* texture coordinates as red and green; blue where there are none */
+    GLINT_SHOW_ID,     /* a colour for each surface */
+    GLINT_SHOW_COST,   /* nodes, leaves and exact tests of all rays of the pixel, traced one by one;
+                          with a legend. The same on every machine */
+    GLINT_SHOW_SHADOW, /* the part of the lights with a place or direction that the point faces and
+                          nothing hides: all white, none black */
+    GLINT_SHOW_COUNT
+} GlintShow;
+
 typedef struct GlintRenderDesc {
     int width, height;           /* 0 (default): the scene's */
     int crop_x, crop_y;          /* top left corner of the part to draw; 0 */
@@ -500,6 +525,9 @@ typedef struct GlintRenderDesc {
      * camera, to the last bit, and nothing is built anew. null (default): the scene's. Read before
      * the call returns. */
     const GlintCameraDesc *camera;
+    GlintShow show;      /* PICTURE */
+    double *shown_range; /* null (default), or where to put two numbers: of DEPTH the distances that
+                          * are white and black, of COST 0 and what is white */
     int cookie;
 } GlintRenderDesc;
 
@@ -756,6 +784,29 @@ typedef struct GlintStats {
 
 GLINT_API void glint_scene_stats(const GlintScene *scene, GlintStats *stats);
 
+/* ---------------------------------------------------------------- checks */
+
+/* What a finding is an instance of. docs/check.md has an example of each. */
+typedef struct GlintRule {
+    const char *name; /* "light-inside-solid": never changes its meaning */
+    GlintSeverity severity;
+    const char *summary; /* what is found: one sentence, with its full stop */
+    const char *help;    /* why it is told, and what to do: sentences */
+} GlintRule;
+
+/* Every rule, those of errors first; null behind the last. Lives for ever. */
+GLINT_API const GlintRule *glint_rule_at(int index);
+
+/* Looks for what is legal in a committed scene but surely a mistake, and reports it through the
+ * scene's diagnostic callback, on this thread, in the order of the file: warnings and notes, never
+ * errors. Load the scene with keep_sources, or findings have no place. Of each rule the first ten
+ * findings are told and the others counted, in one more without a place. For some rules a few small
+ * pictures are drawn. Takes
+ * milliseconds, with a hundred thousand surfaces a second or two. Not while the scene is drawn.
+ * monitor may be null. Errors: ARGUMENT (the scene is not committed), MEMORY, THREAD, CANCELLED. */
+GLINT_API GlintStatus glint_scene_check(
+    GlintScene *scene, const GlintMonitor *monitor, GlintError *error);
+
 /* ---------------------------------------------------------------- pictures */
 
 typedef struct GlintImage {
@@ -832,8 +883,8 @@ GLINT_API GlintStatus glint_image_encode_png(const GlintImage *image, const Glin
 
 /* The recipe of what glint_render would draw now, to be destroyed by the caller. with_files: with
  * the content of the scene and of all files that it names, for which it must have been loaded with
- * keep_sources. Errors: ARGUMENT (also a desc with a camera), FILE (a file has changed since, or
- * cannot be read), MEMORY. */
+ * keep_sources. Errors: ARGUMENT (also a desc with a camera, or that shows something else than the
+ * picture: neither has a recipe), FILE (a file has changed since, or cannot be read), MEMORY. */
 GLINT_API GlintStatus glint_scene_recipe(const GlintScene *scene, const GlintRenderDesc *desc,
     bool with_files, GlintRecipe **recipe, GlintError *error);
 

@@ -296,7 +296,7 @@ const GiElement *gi_element_guess(GiElementIndex *index, GiSpan name, GiContexts
     uint8_t *guess = &index->after[index->last];
     const GiElement *element = *guess > 0 ? &gi_elements[*guess - 1] : NULL;
     if (element == NULL || (element->contexts & contexts) == 0 ||
-        name.size != index->sizes[*guess - 1] || memcmp(name.data, element->name, name.size) != 0) {
+        name.size != index->sizes[*guess - 1] || !gi_span_equals(name, element->name)) {
         element = gi_element_find(index, name, contexts);
         if (element == NULL) return NULL;
         *guess = (uint8_t)(element - gi_elements + 1);
