@@ -308,8 +308,11 @@ static void obj_faults(void) {
 static void obj_large(void) {
     enum { COUNT = 900 };
     static char text[1 << 18];
+    static const char *const blanks[] = {"", "", "", " ", "        ", "\t"};
+    static const char *const ends[] = {"\n", "\n", "\n", "  \n", "\r\n", " # 1 2\n", "\\\n\n"};
     Random random = {3};
     char *p = text;
+    size_t triangles = 0;
     for (int i = 0; i < COUNT; i++) {
         if (i < 3 || random_below(&random, 2) != 0) {
             p += sprintf(p, "v %d %d %d\nvn %d 0 1\nvt %d 2\n", i, i + 1, i + 2, i, i);
@@ -317,19 +320,22 @@ static void obj_large(void) {
         if (i >= 3 && random_below(&random, 4) != 0) {
             bool relative = random_below(&random, 2) != 0;
             p += sprintf(p, "f");
-            for (int k = random_below(&random, 4) + 2; k >= 0; k--) {
+            int last = random_below(&random, 4) + 2;
+            triangles += (size_t)last - 1;
+            for (int k = last; k >= 0; k--) {
                 int at = relative ? -1 - random_below(&random, 3) : 1 + random_below(&random, 3);
+                p += sprintf(p, "%s", blanks[random_below(&random, 6)]);
                 if (i < 400) p += sprintf(p, " %d//%d", at, at);
                 if (i >= 400 && i < 600) p += sprintf(p, " %d/%d", at, relative ? -1 : 2);
                 if (i >= 600) p += sprintf(p, " %d", at);
             }
-            p += sprintf(p, "\n");
+            p += sprintf(p, "%s", ends[random_below(&random, 7)]);
         }
     }
     Loaded whole;
     load(&whole, GI_MESH_OBJ, text);
     CHECK_INT(whole.status, GLINT_OK);
-    CHECK(whole.store.corners.count > 1000);
+    CHECK(whole.store.corners.count == triangles && triangles > 1000);
     check(GI_MESH_OBJ, text, describe(&whole));
     unload(&whole);
     /* With a fault in the middle, and a second one after it. */

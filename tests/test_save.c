@@ -28,11 +28,13 @@ static void put_pieces(void *context, size_t begin, size_t end, int worker) {
         int x = (int)puzzle->order[i] % puzzle->columns * puzzle->side;
         int y = (int)puzzle->order[i] / puzzle->columns * puzzle->side;
         int width = image->width - x < puzzle->side ? image->width - x : puzzle->side;
-        for (int row = y; row < y + puzzle->side && row < image->height; row++) {
+        int rows = image->height - y < puzzle->side ? image->height - y : puzzle->side;
+        for (int row = y; row < y + rows; row++) {
             const float *from =
                 image->pixels + 3 * ((size_t)row * (size_t)image->width + (size_t)x);
-            CHECK(gi_png_put(puzzle->png, x, row, width, from, worker));
+            CHECK(gi_png_put(puzzle->png, x, row, width, from));
         }
+        CHECK(gi_png_account(puzzle->png, y, rows, width, worker));
         if (worker == 0) CHECK(gi_png_send(puzzle->png));
     }
 }

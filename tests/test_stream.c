@@ -46,14 +46,76 @@ static void check_view(const GiKernel *kernel, Streams *s, Random *random, bool 
     }
 }
 
+/* ---------------------------------------------------------------- groups */
+
+static void check_group(const GiKernel *kernel, Random *random) {
+    uint32_t keys[GI_BUNDLE_ROOM], places[GI_BUNDLE_ROOM];
+    int ends[GI_BUNDLE_SIZE];
+    int count = 1 + random_below(random, GI_BUNDLE_SIZE), with_key = 0;
+    int kinds = 1 + random_below(random, random_below(random, 2) ? 8 : 3000);
+    bool seen[GI_BUNDLE_SIZE] = {false};
+    for (int i = 0; i < GI_BUNDLE_ROOM; i++) {
+        uint32_t key = (uint32_t)random_below(random, kinds) * 512;
+        keys[i] = random_below(random, 4) == 0 ? GI_NO_KEY : key;
+        with_key += i < count && keys[i] != GI_NO_KEY;
+    }
+    int groups = kernel->group(keys, count, places, ends), begin = 0;
+    for (int g = 0; g < groups; begin = ends[g++]) {
+        CHECK(ends[g] > begin);
+        uint32_t key = keys[places[begin]];
+        CHECK(key != GI_NO_KEY);
+        for (int k = 0; k < g; k++) CHECK(keys[places[ends[k] - 1]] != key);
+        for (int i = begin; i < ends[g]; i++) {
+            CHECK(places[i] < (uint32_t)count && keys[places[i]] == key && !seen[places[i]]);
+            CHECK(i == begin || places[i - 1] < places[i]);
+            seen[places[i]] = true;
+        }
+    }
+    CHECK_INT(begin, with_key);
+}
+
 /* ---------------------------------------------------------------- points */
 
 typedef struct Solids {
     GiSphere spheres[SHAPES];
     GiBox boxes[SHAPES];
     GiCone cones[SHAPES];
+    GiMesh meshes[4];
+    float positions[3 * SHAPES + 1][3], normals[3 * SHAPES + 1][3]; /* one more than there are */
+    uint32_t corners[SHAPES][3], normal_corners[SHAPES][3];
     GiShapes shapes;
 } Solids;
+
+/* Triangles in meshes without normals, with a normal for each position, and with normals of their
+ * own, which some have not. Many normals are zero. */
+static void fill_meshes(Solids *solids, Random *random) {
+    enum { EACH = SHAPES / 4 };
+    for (int i = 0; i < 3 * SHAPES; i++) {
+        GiVec p = random_vec(random, -5, 5), n = random_vec(random, -1, 1);
+        double size = random_below(random, 2) == 0 ? 0 : 1;
+        for (int axis = 0; axis < 3; axis++) {
+            solids->positions[i][axis] = (float)(&p.x)[axis];
+            solids->normals[i][axis] = (float)((&n.x)[axis] * size);
+        }
+    }
+    for (uint32_t i = 0; i < SHAPES; i++) {
+        bool bare = random_below(random, 4) == 0;
+        for (uint32_t corner = 0; corner < 3; corner++) {
+            uint32_t any = (uint32_t)random_below(random, 3 * SHAPES);
+            solids->corners[i][corner] = 3 * i + corner;
+            solids->normal_corners[i][corner] = bare ? GI_SHAPE_NONE : any;
+        }
+    }
+    for (uint32_t i = 0; i < 4; i++) {
+        solids->meshes[i] = (GiMesh){.first_triangle = i * EACH,
+            .triangle_count = EACH,
+            .first_position = 3 * i * EACH,
+            .position_count = 3 * EACH,
+            .first_normal = 3 * (3 - i) * EACH,
+            .smooth = i > 0,
+            .normal_corners = i == 2 ? solids->normal_corners + i * EACH : NULL};
+    }
+}
 
 static void fill_solids(Solids *solids, Random *random) {
     for (int i = 0; i < SHAPES; i++) {
@@ -65,15 +127,24 @@ static void fill_solids(Solids *solids, Random *random) {
         double radius = random_below(random, 2) ? fabs(slope) * size.z : size.x;
         solids->cones[i] = (GiCone){c, radius, slope, size.z};
     }
-    solids->shapes =
-        (GiShapes){.spheres = solids->spheres, .boxes = solids->boxes, .cones = solids->cones};
+    fill_meshes(solids, random);
+    const GiTriangles triangles = {.positions = (const float(*)[3])solids->positions,
+        .normals = (const float(*)[3])solids->normals,
+        .corners = (const uint32_t(*)[3])solids->corners};
+    solids->shapes = (GiShapes){.spheres = solids->spheres,
+        .boxes = solids->boxes,
+        .cones = solids->cones,
+        .triangles = triangles,
+        .meshes = solids->meshes,
+        .mesh_count = 4};
 }
 
 /* A ray that meets the shape, in the bundle's place i. */
 static void put_ray(GiBundle *bundle, Random *random, const Solids *solids, GiShapeRef ref, int i) {
+    bool solid = gi_shape_kind(ref) != GI_SHAPE_TRIANGLE;
     for (;;) {
         GiVec o = random_vec(random, -9, 9), d = random_vec(random, -1, 1);
-        if (random_below(random, 4) == 0) {
+        if (solid && random_below(random, 4) == 0) {
             /* Along an axis, through the middle of the solid. */
             o = solids->cones[gi_shape_index(ref)].center;
             o.z -= 9;
@@ -95,8 +166,10 @@ static void check_points(
     fill_solids(&solids, random);
     GiBundle *bundle = &s->bundle;
     uint32_t rays[COUNT];
+    int first = random_below(random, SHAPES),
+        different = 1 + random_below(random, 2) * (SHAPES - first - 1);
     for (int i = 0; i < COUNT; i++) {
-        GiShapeRef ref = gi_shape_ref(kind, (uint32_t)random_below(random, SHAPES));
+        GiShapeRef ref = gi_shape_ref(kind, (uint32_t)(first + random_below(random, different)));
         put_ray(bundle, random, &solids, ref, i);
         rays[i] = (uint32_t)random_below(random, COUNT);
     }
@@ -188,12 +261,14 @@ static void kernels_agree(void) {
     CHECK(s != NULL);
     if (s == NULL) return;
     memset(s, 0, sizeof *s);
+    const GiShapeKind kinds[] = {GI_SHAPE_SPHERE, GI_SHAPE_BOX, GI_SHAPE_CONE, GI_SHAPE_TRIANGLE};
     const GiKernel *kernel;
     for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
         Random random = {31};
         for (int i = 0; i < 300; i++) {
             check_view(kernel, s, &random, i % 2 == 0);
-            check_points(kernel, s, &random, (GiShapeKind)(i % 3), i % 2 == 0);
+            if (i % 8 == 0) check_group(kernel, &random);
+            check_points(kernel, s, &random, kinds[i % 4], i % 2 == 0);
             fill_lit(s, &random);
             check_shadows(kernel, s, &random);
             check_add(kernel, s);

@@ -55,6 +55,7 @@ class Severity(IntEnum):
 
     ERROR = 0
     WARNING = 1
+    NOTE = 2
 
 
 class GlintDiagnostic(Structure):
@@ -67,6 +68,8 @@ class GlintDiagnostic(Structure):
         ("excerpt", c_char_p),
         ("caret", c_int),
         ("caret_length", c_int),
+        ("rule", c_char_p),
+        ("hint", c_char_p),
     ]
     _enums_ = {"severity": Severity}
 
@@ -387,6 +390,19 @@ class Sampling(IntEnum):
     RANDOM = 1
 
 
+class Show(IntEnum):
+    """GlintShow of glint.h."""
+
+    PICTURE = 0
+    NORMAL = 1
+    DEPTH = 2
+    UV = 3
+    ID = 4
+    COST = 5
+    SHADOW = 6
+    COUNT = 7
+
+
 class GlintRenderDesc(Structure):
     _fields_ = [
         ("width", c_int),
@@ -404,9 +420,11 @@ class GlintRenderDesc(Structure):
         ("sampling", c_int),
         ("monitor", POINTER(GlintMonitor)),
         ("camera", POINTER(GlintCameraDesc)),
+        ("show", c_int),
+        ("shown_range", c_void_p),
         ("cookie", c_int),
     ]
-    _enums_ = {"sampling": Sampling}
+    _enums_ = {"sampling": Sampling, "show": Show}
 
 
 class GlintRay(Structure):
@@ -638,6 +656,16 @@ class GlintStats(Structure):
     ]
 
 
+class GlintRule(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("severity", c_int),
+        ("summary", c_char_p),
+        ("help", c_char_p),
+    ]
+    _enums_ = {"severity": Severity}
+
+
 class GlintImage(Structure):
     _fields_ = [
         ("width", c_int),
@@ -701,6 +729,114 @@ class GlintSaveDesc(Structure):
 GlintSinkFn = CFUNCTYPE(c_bool, c_void_p, c_void_p, c_size_t)
 
 
+class ElementKind(IntEnum):
+    """GlintElementKind of glint.h."""
+
+    NUMBER = 0
+    WHOLE_NUMBER = 1
+    IMAGE_SIZE = 2
+    VECTOR = 3
+    POINT = 4
+    COLOR = 5
+    WORD = 6
+    TEXT = 7
+    SCENE = 8
+    CAMERA = 9
+    SURFACE = 10
+    SHADER = 11
+    BSDF = 12
+    BRDF = 13
+    TEXTURE = 14
+    LIGHT = 15
+    ENVIRONMENT = 16
+    INTEGRATOR = 17
+
+
+class ElementRange(IntEnum):
+    """GlintElementRange of glint.h."""
+
+    ANY = 0
+    POSITIVE = 1
+    SAMPLES = 2
+    NOT_ZERO = 3
+    NO_ZEROS = 4
+    ANGLE = 5
+    BIT = 6
+    DEPTH = 7
+    PIXELS = 8
+
+
+class GlintElement(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("kind", c_int),
+        ("range", c_int),
+        ("required", c_bool),
+        ("default_text", c_char_p),
+        ("example", c_char_p),
+        ("choices", c_char_p),
+        ("alias_of", c_char_p),
+        ("default_type", c_char_p),
+        ("years", c_char_p),
+        ("help", c_char_p),
+    ]
+    _enums_ = {"kind": ElementKind, "range": ElementRange}
+
+
+class GlintElementType(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("kind", c_int),
+        ("alias_of", c_char_p),
+        ("years", c_char_p),
+        ("help", c_char_p),
+    ]
+    _enums_ = {"kind": ElementKind}
+
+
+class GlintFormatDesc(Structure):
+    _fields_ = [
+        ("allocator", POINTER(GlintAllocator)),
+        ("diagnostic", GlintDiagnosticFn),
+        ("diagnostic_user", c_void_p),
+        ("cookie", c_int),
+    ]
+
+
+class ChangeKind(IntEnum):
+    """GlintChangeKind of glint.h."""
+
+    SAME = 0
+    ROUNDING = 1
+    DIFFERENT = 2
+
+
+class GlintChange(Structure):
+    _fields_ = [
+        ("kind", c_int),
+        ("line", c_int64),
+        ("column", c_int64),
+        ("message", c_char_p),
+    ]
+    _enums_ = {"kind": ChangeKind}
+
+
+GlintChangeFn = CFUNCTYPE(None, c_void_p, POINTER(GlintChange))
+
+
+class GlintUpgradeDesc(Structure):
+    _fields_ = [
+        ("dialect", c_int),
+        ("change", GlintChangeFn),
+        ("change_user", c_void_p),
+        ("allocator", POINTER(GlintAllocator)),
+        ("diagnostic", GlintDiagnosticFn),
+        ("diagnostic_user", c_void_p),
+        ("cookie", c_int),
+    ]
+    _enums_ = {"dialect": Dialect}
+
+
 # name: what it returns, what it takes
 FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "glint_status_text": (c_char_p, [c_int]),
@@ -760,6 +896,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "glint_scene_light": (c_bool, [c_void_p, c_uint32, POINTER(GlintLightDesc)]),
     "glint_scene_background": (c_bool, [c_void_p, c_void_p]),
     "glint_scene_stats": (None, [c_void_p, POINTER(GlintStats)]),
+    "glint_rule_at": (POINTER(GlintRule), [c_int]),
+    "glint_scene_check": (c_int, [c_void_p, POINTER(GlintMonitor), POINTER(GlintError)]),
     "glint_save_desc_default": (GlintSaveDesc, []),
     "glint_image_save": (c_int, [POINTER(GlintImage), c_char_p, POINTER(GlintSaveDesc),
         POINTER(GlintError)]),
@@ -776,4 +914,16 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "glint_image_digest": (c_int, [POINTER(GlintImage), c_void_p, POINTER(GlintError)]),
     "glint_picture_digest": (c_int, [c_char_p, c_void_p, POINTER(GlintError)]),
     "glint_image_to_rgb8": (None, [POINTER(GlintImage), c_void_p]),
+    "glint_element_at": (c_bool, [c_int, POINTER(GlintElement)]),
+    "glint_element_type_at": (c_bool, [c_int, POINTER(GlintElementType)]),
+    "glint_element_fits": (c_bool, [c_int, c_int]),
+    "glint_element_kind_text": (c_char_p, [c_int]),
+    "glint_element_range_text": (c_char_p, [c_int]),
+    "glint_format_desc_default": (GlintFormatDesc, []),
+    "glint_format": (c_int, [c_void_p, c_size_t, c_char_p, POINTER(GlintFormatDesc), GlintSinkFn,
+        c_void_p, POINTER(GlintError)]),
+    "glint_upgrade_desc_default": (GlintUpgradeDesc, []),
+    "glint_upgrade": (c_int, [c_void_p, c_size_t, c_char_p, POINTER(GlintUpgradeDesc), GlintSinkFn,
+        c_void_p, c_void_p, POINTER(GlintError)]),
+    "glint_file_save": (c_int, [c_char_p, c_void_p, c_size_t, POINTER(GlintError)]),
 }

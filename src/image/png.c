@@ -237,20 +237,23 @@ static bool encode_band(GiPng *png, size_t index, Scratch *scratch) {
     return true;
 }
 
-/* Stores pixels of row y for one of the two bands that need them, and encodes what is then whole.
- * False: no memory. */
-static bool store(
-    GiPng *png, size_t index, int x, int y, int count, const float *linear, int worker) {
-    Band *band = &png->bands[index];
-    Block *block = take_block(png, band);
+/* Stores pixels of row y for one of the two bands that need them. False: no memory. */
+static bool store(GiPng *png, size_t index, int x, int y, int count, const float *linear) {
+    Block *block = take_block(png, &png->bands[index]);
     if (block == NULL) {
         atomic_store(&png->failed, true);
         return false;
     }
     size_t row = (size_t)(y + 1 - (int)index * png->rows); /* 0: the row above */
     png->gamma(linear, 3 * (size_t)count, block->pixels + row * png->stride + 3 * (size_t)(x + 1));
+    return true;
+}
+
+/* Encodes a band when no more of its pixels are missing than these. False: no memory. */
+static bool account(GiPng *png, size_t index, uint64_t pixels, int worker) {
+    Band *band = &png->bands[index];
     /* Whoever finds nothing missing sees what all others have stored. */
-    if (atomic_fetch_sub(&band->missing, (uint64_t)count) != (uint64_t)count) return true;
+    if (atomic_fetch_sub(&band->missing, pixels) != pixels) return true;
     if (!encode_band(png, index, &png->scratch[worker])) {
         atomic_store(&png->failed, true);
         return false;
@@ -259,11 +262,22 @@ static bool store(
     return true;
 }
 
-bool gi_png_put(GiPng *png, int x, int y, int count, const float *linear, int worker) {
+bool gi_png_put(GiPng *png, int x, int y, int count, const float *linear) {
     size_t band = (size_t)(y / png->rows);
     bool last = (y + 1) % png->rows == 0 && band + 1 < png->band_count;
-    return store(png, band, x, y, count, linear, worker) &&
-           (!last || store(png, band + 1, x, y, count, linear, worker));
+    return store(png, band, x, y, count, linear) &&
+           (!last || store(png, band + 1, x, y, count, linear));
+}
+
+bool gi_png_account(GiPng *png, int y, int rows, int count, int worker) {
+    int end = y + rows;
+    for (int band = y / png->rows; band <= end / png->rows; band++) {
+        if ((size_t)band == png->band_count) break;
+        int first = band * png->rows - 1, last = first + png->rows; /* with the row above */
+        int here = (last < end ? last + 1 : end) - (first > y ? first : y);
+        if (!account(png, (size_t)band, (uint64_t)here * (uint64_t)count, worker)) return false;
+    }
+    return true;
 }
 
 /* ---------------------------------------------------------------- the whole */
@@ -387,8 +401,9 @@ static void encode_bands(void *context, size_t begin, size_t end, int worker) {
         int y = (int)index * png->rows, end_y = y + rows_of(png, index);
         for (y -= index > 0 ? 1 : 0; y < end_y; y++) {
             const float *row = image->pixels + 3 * (size_t)y * (size_t)image->width;
-            if (!store(png, index, 0, y, image->width, row, worker)) return;
+            if (!store(png, index, 0, y, image->width, row)) return;
         }
+        if (!account(png, index, atomic_load(&png->bands[index].missing), worker)) return;
     }
 }
 

@@ -30,9 +30,12 @@ GlintStatus gi_png_create(GiMemory *memory, const GiPngDesc *desc, GiPng **png, 
 void gi_png_destroy(GiPng *png); /* null is allowed */
 
 /* Count linear pixels of row y from column x on: in any order, any number of threads at a time,
- * each with its own number below worker_count, each pixel once. False: there is no memory for them;
- * the picture is lost. */
-bool gi_png_put(GiPng *png, int x, int y, int count, const float *linear, int worker);
+ * each pixel once. False: there is no memory for them; the picture is lost. */
+bool gi_png_put(GiPng *png, int x, int y, int count, const float *linear);
+
+/* Tells that count pixels of each of the rows y to y + rows - 1 were put, by this worker, a number
+ * below worker_count that no other thread has. Encodes what is then whole. False: as above. */
+bool gi_png_account(GiPng *png, int y, int rows, int count, int worker);
 
 /* Sends what is ready. One thread at a time, also while others put pixels. False: the sink has
  * stopped. */

@@ -36,6 +36,7 @@ const GiKernel GI_KERNEL(kernel) = {
     GI_KERNEL(bundle_closest),
     GI_KERNEL(bundle_any),
     GI_KERNEL(view),
+    GI_KERNEL(group),
     GI_KERNEL(points),
     GI_KERNEL(light),
     GI_KERNEL(shadows),

@@ -61,6 +61,8 @@ typedef struct GiBundle {
     double inverse_square[GI_BUNDLE_ROOM], depth[GI_BUNDLE_ROOM];
 } GiBundle;
 
+#define GI_NO_KEY UINT32_MAX
+
 typedef struct GiKernel {
     const char *name;
     bool (*closest)(const GiTrace *trace, const GiTraceRay *ray, GiTraceHit *hit);
@@ -73,9 +75,13 @@ typedef struct GiKernel {
     void (*bundle_any)(const GiTrace *trace, GiBundle *bundle);
     /* Origins and directions of the bundle's rays, through the window coordinates a and b. */
     void (*view)(const GiView *view, const double *a, const double *b, GiBundle *bundle);
-    /* Appends the points where rays of the bundle, named by their indices, met spheres, boxes or
-     * cones (all of one kind, not placed, not an instance's). `spared`: shadow rays do not meet the
-     * shape they start on. */
+    /* Sorts the places 0 to count - 1, at most GI_BUNDLE_SIZE, by their keys: those of equal keys
+     * side by side, in order, up to ends[0], ends[1] and so on. Places with the key GI_NO_KEY are
+     * left out. Returns how many keys there are. `keys` and `places` have GI_BUNDLE_ROOM. */
+    int (*group)(const uint32_t *keys, int count, uint32_t *places, int *ends);
+    /* Appends the points where rays of the bundle, named by their indices, met spheres, boxes,
+     * cones or triangles (all of one kind, not placed, not an instance's). `spared`: shadow rays do
+     * not meet the shape they start on. */
     void (*points)(const GiShapes *shapes, const GiBundle *bundle, const uint32_t *rays, int count,
         bool spared, bool second_nappe_geometric, GiPoints *points);
     /* What the light adds to the points begin to end - 1, all of one shader, as shade/shade.h has

@@ -17,12 +17,14 @@ static inline Wide wide_along(Wide o, Wide d, R t) {
     return (Wide){o.x + d.x * t, o.y + d.y * t, o.z + d.z * t};
 }
 
+static inline R wide_largest(Wide a) { return R_MAX(R_ABS(a.x), R_MAX(R_ABS(a.y), R_ABS(a.z))); }
+
 /* As gi_normalize: what is too short or too long is scaled first. */
 static inline Wide wide_normalize(Wide a) {
     R square = wide_dot(a, a);
     M regular = R_LESS(R_OF(1e-280), square) & R_LESS(square, R_OF(1e280));
     if (m_bits(regular) != m_bits(M_OF(true))) {
-        R largest = R_MAX(R_ABS(a.x), R_MAX(R_ABS(a.y), R_ABS(a.z)));
+        R largest = wide_largest(a);
         M scaled = M_NOT(regular) & R_LESS(R_OF(0), largest);
         R divisor = R_SELECT(scaled, largest, R_OF(1));
         a = (Wide){a.x / divisor, a.y / divisor, a.z / divisor};
@@ -61,22 +63,37 @@ static inline Wide wide_reflect(const GiGloss *gloss, Wide n, Wide v, Wide l) {
     return color;
 }
 
-/* The last vector reaches beyond `end`, into points whose turn comes later. */
+/* The way from points to the light: unit direction, square and inverse of the distance. */
+typedef struct Way {
+    Wide l;
+    R square, inverse;
+} Way;
+
+static inline Way way_to(const GiPointLight *light, const GiPoints *points, int i) {
+    Wide d = {R_OF(light->position.x) - r_load(points->px + i),
+        R_OF(light->position.y) - r_load(points->py + i),
+        R_OF(light->position.z) - r_load(points->pz + i)};
+    R square = wide_dot(d, d);
+    R inverse = R_OF(1) / R_SQRT(square);
+    return (Way){wide_scale(d, inverse), square, inverse};
+}
+
+/* All but the beginning waits for a root and a quotient, so these are begun one vector ahead: more
+ * than a vector's operations no processor has waiting. The last vector reaches beyond `end`, into
+ * points whose turn comes later. */
 static void GI_KERNEL(light)(const GiPoints *points, int begin, int end, const GiPointLight *light,
     const GiGloss *gloss, GiLit *lit) {
     int count = lit->count;
+    Way next = way_to(light, points, begin);
     for (int i = begin; i < end; i += GI_DOUBLES) {
+        Way way = next;
+        next = way_to(light, points, i + GI_DOUBLES); /* for the last: of points that are not lit */
         Wide n = {r_load(points->nx + i), r_load(points->ny + i), r_load(points->nz + i)};
         Wide v = {r_load(points->vx + i), r_load(points->vy + i), r_load(points->vz + i)};
-        Wide d = {R_OF(light->position.x) - r_load(points->px + i),
-            R_OF(light->position.y) - r_load(points->py + i),
-            R_OF(light->position.z) - r_load(points->pz + i)};
-        R square = wide_dot(d, d);
-        R inverse = R_OF(1) / R_SQRT(square);
-        Wide l = wide_scale(d, inverse);
+        Wide l = way.l;
         Wide color = wide_reflect(gloss, n, v, l);
         if (light->falls) {
-            R fall = R_OF(1) / square;
+            R fall = R_OF(1) / way.square;
             color = (Wide){(R_OF(light->intensity.x) * fall) * color.x,
                 (R_OF(light->intensity.y) * fall) * color.y,
                 (R_OF(light->intensity.z) * fall) * color.z};
@@ -87,7 +104,7 @@ static void GI_KERNEL(light)(const GiPoints *points, int begin, int end, const G
         /* Not on the light itself, and nothing where nothing is added. */
         R zero = R_OF(0);
         M dark = R_EQUAL(color.x, zero) & R_EQUAL(color.y, zero) & R_EQUAL(color.z, zero);
-        M good = R_LESS(zero, square) & M_NOT(dark);
+        M good = R_LESS(zero, way.square) & M_NOT(dark);
         if (gloss->front_only) good = good & R_LESS_EQUAL(zero, wide_dot(n, v));
         if (gloss->phong && gloss->needs_light) good = good & R_LESS(zero, wide_dot(n, l));
         unsigned bits = m_bits(good);
@@ -98,7 +115,7 @@ static void GI_KERNEL(light)(const GiPoints *points, int begin, int end, const G
         r_store(lit->red + i, color.x);
         r_store(lit->green + i, color.y);
         r_store(lit->blue + i, color.z);
-        r_store(lit->t_min + i, away * inverse);
+        r_store(lit->t_min + i, away * way.inverse);
         memset(lit->arrives + i, 0, GI_DOUBLES);
         r_append_floats(lit->x + count, l.x, bits);
         r_append_floats(lit->y + count, l.y, bits);

@@ -234,7 +234,7 @@ static inline void wave_begin(Wave *wave, const uint32_t *walkers, int first, in
         for (int i = 0; i < GI_DOUBLES; i++) {
             index[i] = (uint32_t)(begin + i < count ? begin + i : count - 1);
         }
-#define LANES(member) r_gather(&rays->member, index, (int)(sizeof *rays / sizeof(double)))
+#define LANES(member) r_gather(&rays->member, u_load(index), (int)(sizeof *rays / sizeof(double)))
         const gi_wide_Ray ray = gi_wide_ray(LANES(origin.x), LANES(origin.y), LANES(origin.z),
             LANES(direction.x), LANES(direction.y), LANES(direction.z));
         R t_min = LANES(t_min), t_max = LANES(t_max);

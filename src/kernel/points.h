@@ -12,8 +12,10 @@ enum {
     GI_POINT_ROOM = GI_POINT_LIMIT + 16 /* kernels read and write whole vectors */
 };
 
+/* Of both, vectors begin on a line of the cache. */
 typedef struct GiPoints {
-    double px[GI_POINT_ROOM], py[GI_POINT_ROOM], pz[GI_POINT_ROOM];
+    _Alignas(64) double px[GI_POINT_ROOM];
+    double py[GI_POINT_ROOM], pz[GI_POINT_ROOM];
     double nx[GI_POINT_ROOM], ny[GI_POINT_ROOM], nz[GI_POINT_ROOM]; /* unit normal */
     double vx[GI_POINT_ROOM], vy[GI_POINT_ROOM], vz[GI_POINT_ROOM]; /* unit, toward the viewer */
     double error[GI_POINT_ROOM]; /* distance within which a ray may meet its own surface */
@@ -44,7 +46,8 @@ typedef struct GiGloss {
 /* What one light adds to points, if nothing is in the way. */
 typedef struct GiLit {
     /* Of every point. */
-    double red[GI_POINT_ROOM], green[GI_POINT_ROOM], blue[GI_POINT_ROOM];
+    _Alignas(64) double red[GI_POINT_ROOM];
+    double green[GI_POINT_ROOM], blue[GI_POINT_ROOM];
     double t_min[GI_POINT_ROOM];    /* of the shadow ray; the light is at t = 1 */
     uint8_t arrives[GI_POINT_ROOM]; /* 1: nothing is in the way */
     /* Of those points alone to which it adds something. */

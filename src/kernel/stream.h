@@ -5,20 +5,18 @@
 #pragma once
 
 /* The numbers from i on; the first of them in the place of those after the end. */
-static inline void stream_load(uint32_t *to, const uint32_t *from, int i, int end) {
-    if (i + GI_DOUBLES <= end) {
-        u_copy(to, from + i);
-        return;
-    }
-    for (int k = 0; k < GI_DOUBLES; k++) to[k] = from[i + k < end ? i + k : i];
+static inline U stream_load(const uint32_t *from, int i, int end) {
+    if (i + GI_DOUBLES <= end) return u_load(from + i);
+    uint32_t last[GI_DOUBLES];
+    for (int k = 0; k < GI_DOUBLES; k++) last[k] = from[i + k < end ? i + k : i];
+    return u_load(last);
 }
 
-static inline void stream_load_short(uint32_t *to, const uint16_t *from, int i, int end) {
-    if (i + GI_DOUBLES <= end) {
-        u_widen(to, from + i);
-        return;
-    }
-    for (int k = 0; k < GI_DOUBLES; k++) to[k] = from[i + k < end ? i + k : i];
+static inline U stream_load_short(const uint16_t *from, int i, int end) {
+    if (i + GI_DOUBLES <= end) return u_widen(from + i);
+    uint32_t last[GI_DOUBLES];
+    for (int k = 0; k < GI_DOUBLES; k++) last[k] = from[i + k < end ? i + k : i];
+    return u_load(last);
 }
 
 /* ---------------------------------------------------------------- rays */
@@ -41,13 +39,43 @@ static void GI_KERNEL(view)(const GiView *view, const double *a, const double *b
     }
 }
 
+/* ---------------------------------------------------------------- groups */
+
+/* A key is looked for up to where it comes last: as far as that is known, from a table in which
+ * other keys may have written too, but only later places. */
+static int GI_KERNEL(group)(const uint32_t *keys, int count, uint32_t *places, int *ends) {
+    enum { SLOTS = 1024 };
+    uint16_t last[SLOTS];
+    uint16_t open[GI_PACKET_COUNT]; /* bits of the places that are in no group yet */
+    int packets = (count + 15) / 16, found = 0, groups = 0;
+    for (int i = 0; i < count; i++) last[keys[i] % SLOTS] = (uint16_t)i;
+    for (int i = 0; i < packets; i++) {
+        int left = count - 16 * i;
+        unsigned here = left < 16 ? (1u << left) - 1 : 0xffff;
+        open[i] = (uint16_t)(here & ~sixteen_equal(GI_NO_KEY, keys + 16 * i));
+    }
+    for (int first = 0; first < packets; first++) {
+        while (open[first] != 0) {
+            uint32_t key = keys[16 * first + lowest_bit(open[first])];
+            int end = last[key % SLOTS] / 16;
+            for (int i = first; i <= end; i++) {
+                unsigned bits = open[i] & sixteen_equal(key, keys + 16 * i);
+                open[i] = (uint16_t)(open[i] ^ bits);
+                found += sixteen_append(places + found, bits, (uint32_t)(16 * i));
+            }
+            ends[groups++] = found;
+        }
+    }
+    return groups;
+}
+
 /* ---------------------------------------------------------------- points */
 
 /* Rays with the shapes they met, by index, and where: in the end moved onto the surface. */
 typedef struct Hits {
     Wide o, d, p, n;
     R t, size; /* size: of the numbers beside the point's own */
-    uint32_t shape[GI_DOUBLES];
+    U shape;
 } Hits;
 
 #define STREAM_GATHER(member) r_gather(&(member), hits->shape, stride)
@@ -133,10 +161,75 @@ static inline void hits_cones(Hits *hits, const GiCone *first, bool second_nappe
 
 #undef STREAM_GATHER
 
+/* Rows of floats, one for each lane, or one for all. */
+static inline void hits_rows(const float *const rows[GI_DOUBLES], int count, R columns[3]) {
+    if (count > 1) {
+        r_rows(rows, columns);
+    } else {
+        for (int i = 0; i < 3; i++) columns[i] = R_OF((double)rows[0][i]);
+    }
+}
+
+/* As triangle_point. Mostly all hits are on one triangle. */
+static inline void hits_triangles(Hits *hits, const GiShapes *shapes) {
+    const float *corners[3][GI_DOUBLES], *normals[3][GI_DOUBLES];
+    uint32_t triangles[GI_DOUBLES];
+    unsigned smooth = 0;
+    const int count = u_is_one(hits->shape) ? 1 : GI_DOUBLES;
+    u_store(triangles, hits->shape);
+    for (int k = 0; k < count; k++) {
+        uint32_t triangle = triangles[k], row[3];
+        const uint32_t *own = shapes->triangles.corners[triangle];
+        const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, triangle)];
+        bool has_normals = gi_triangle_normals(shapes, triangle, mesh, row);
+        smooth |= (unsigned)has_normals << k;
+        for (int i = 0; i < 3; i++) {
+            corners[i][k] = shapes->triangles.positions[own[i]];
+            normals[i][k] = has_normals ? shapes->triangles.normals[row[i]] : corners[i][k];
+        }
+    }
+    R zero = R_OF(0), corner[3][3], part[3];
+    for (int i = 0; i < 3; i++) hits_rows(corners[i], count, corner[i]);
+    const gi_wide_Ray ray = {.ox = hits->o.x,
+        .oy = hits->o.y,
+        .oz = hits->o.z,
+        .dx = hits->d.x,
+        .dy = hits->d.y,
+        .dz = hits->d.z};
+    gi_wide_Weights weights = gi_wide_weights_at(corner, &ray);
+    R scale = R_OF(1) / (weights.u + weights.v + weights.w);
+    part[0] = weights.u * scale, part[1] = weights.v * scale, part[2] = weights.w * scale;
+    hits->p = (Wide){zero, zero, zero};
+    hits->size = zero;
+    for (int i = 0; i < 3; i++) {
+        Wide c = {corner[i][0], corner[i][1], corner[i][2]};
+        hits->p = wide_along(hits->p, c, part[i]);
+        hits->size = R_MAX(hits->size, wide_largest(c));
+    }
+    Wide a = {
+        corner[1][0] - corner[0][0], corner[1][1] - corner[0][1], corner[1][2] - corner[0][2]};
+    Wide b = {
+        corner[2][0] - corner[0][0], corner[2][1] - corner[0][1], corner[2][2] - corner[0][2]};
+    hits->n = (Wide){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    if (smooth != 0) {
+        Wide blend = {zero, zero, zero};
+        for (int i = 0; i < 3; i++) {
+            R normal[3];
+            hits_rows(normals[i], count, normal);
+            blend = wide_along(blend, (Wide){normal[0], normal[1], normal[2]}, part[i]);
+        }
+        M flat = R_EQUAL(blend.x, zero) & R_EQUAL(blend.y, zero) & R_EQUAL(blend.z, zero);
+        M blended = (count > 1 ? m_from_bits(smooth) : M_OF(true)) & M_NOT(flat);
+        hits->n = (Wide){R_SELECT(blended, blend.x, hits->n.x),
+            R_SELECT(blended, blend.y, hits->n.y), R_SELECT(blended, blend.z, hits->n.z)};
+    }
+    hits->n = wide_normalize(hits->n);
+}
+
 static inline void hits_store(const Hits *hits, GiPoints *to, int at) {
     Wide p = hits->p, n = hits->n, d = hits->d;
-    R largest = R_MAX(R_ABS(p.x), R_MAX(R_ABS(p.y), R_ABS(p.z))), zero = R_OF(0);
-    r_store(to->error + at, (hits->size + largest) * R_OF(GI_SURFACE_ERROR));
+    R zero = R_OF(0);
+    r_store(to->error + at, (hits->size + wide_largest(p)) * R_OF(GI_SURFACE_ERROR));
     r_store(to->px + at, p.x), r_store(to->py + at, p.y), r_store(to->pz + at, p.z);
     r_store(to->nx + at, n.x), r_store(to->ny + at, n.y), r_store(to->nz + at, n.z);
     r_store(to->vx + at, -d.x), r_store(to->vy + at, -d.y), r_store(to->vz + at, -d.z);
@@ -146,35 +239,28 @@ static inline void hits_store(const Hits *hits, GiPoints *to, int at) {
 static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, const uint32_t *rays,
     int count, bool spared, bool second_nappe_geometric, GiPoints *to) {
     GiShapeKind kind = gi_shape_kind((GiShapeRef){bundle->shape[rays[0]]});
+    const U index_bits = u_of(GI_SHAPE_INDEX_LIMIT - 1), none = u_of(GI_SHAPE_NONE);
     for (int i = 0; i < count; i += GI_DOUBLES) {
-        uint32_t ray[GI_DOUBLES], shape[GI_DOUBLES], pixel[GI_DOUBLES];
-        stream_load(ray, rays, i, count);
-        u_gather(shape, bundle->shape, ray);
-        u_gather(pixel, bundle->pixel, ray);
+        U ray = stream_load(rays, i, count), shape = u_gather(bundle->shape, ray);
         Hits hits; /* no initializer, which would clear the rest of it each time */
+        hits.shape = shape & index_bits;
         hits.o = (Wide){r_gather(bundle->ox, ray, 1), r_gather(bundle->oy, ray, 1),
             r_gather(bundle->oz, ray, 1)};
         hits.d = (Wide){r_gather(bundle->dx, ray, 1), r_gather(bundle->dy, ray, 1),
             r_gather(bundle->dz, ray, 1)};
         hits.t = r_gather(bundle->t, ray, 1);
         hits.p = wide_along(hits.o, hits.d, hits.t);
-        for (int k = 0; k < GI_DOUBLES; k++) {
-            hits.shape[k] = gi_shape_index((GiShapeRef){shape[k]});
-        }
         switch (kind) {
         case GI_SHAPE_SPHERE: hits_spheres(&hits, shapes->spheres); break;
         case GI_SHAPE_BOX: hits_boxes(&hits, shapes->boxes); break;
+        case GI_SHAPE_TRIANGLE: hits_triangles(&hits, shapes); break;
         default: hits_cones(&hits, shapes->cones, second_nappe_geometric); break;
         }
         int at = to->count + i;
         hits_store(&hits, to, at);
-        u_copy(to->pixel + at, pixel);
-        u_fill(to->skip_instance + at, GI_SHAPE_NONE);
-        if (spared) {
-            u_copy(to->skip + at, shape);
-        } else {
-            u_fill(to->skip + at, GI_SHAPE_NONE);
-        }
+        u_store(to->pixel + at, u_gather(bundle->pixel, ray));
+        u_store(to->skip + at, spared ? shape : none);
+        u_store(to->skip_instance + at, none);
     }
     to->count += count;
 }
@@ -184,12 +270,10 @@ static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, co
 static void GI_KERNEL(shadows)(
     const GiPoints *points, const GiLit *lit, const uint16_t *order, GiBundle *to) {
     for (int i = 0; i < to->count; i += GI_DOUBLES) {
-        uint32_t index[GI_DOUBLES], point[GI_DOUBLES];
-        stream_load_short(index, order, i, to->count);
-        u_gather(point, lit->point, index);
-        u_copy(to->pixel + i, point);
-        u_gather(to->skip + i, points->skip, point);
-        u_gather(to->skip_instance + i, points->skip_instance, point);
+        U point = u_gather(lit->point, stream_load_short(order, i, to->count));
+        u_store(to->pixel + i, point);
+        u_store(to->skip + i, u_gather(points->skip, point));
+        u_store(to->skip_instance + i, u_gather(points->skip_instance, point));
         Wide p = {r_gather(points->px, point, 1), r_gather(points->py, point, 1),
             r_gather(points->pz, point, 1)};
         r_store(to->ox + i, p.x), r_store(to->oy + i, p.y), r_store(to->oz + i, p.z);

@@ -8,7 +8,8 @@
  *     sse2        4           2            the same
  *     portable    1           1            an int
  *
- * Comparisons of floats give bits, lane 0 lowest. Arithmetic is written with operators. */
+ * and U, as many whole numbers as R has doubles. Comparisons of floats give bits, lane 0 lowest.
+ * Arithmetic is written with operators, of U only those on bits. */
 #pragma once
 
 #include "math/gamma.h"
@@ -532,6 +533,7 @@ enum { GI_DOUBLES = 8 };
 #define M_OF(x)            ((M)(-(int)(x)))
 #define M_NOT(m)           ((M)(~(m)))
 static inline unsigned m_bits(M m) { return m; }
+static inline M m_from_bits(unsigned bits) { return (M)bits; }
 static inline R r_load(const double *p) { return _mm512_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm512_storeu_pd(p, a); }
 static inline void r_store_floats(float *p, R a) { _mm256_storeu_ps(p, _mm512_cvtpd_ps(a)); }
@@ -540,9 +542,23 @@ static inline void u_store_where(uint32_t *p, unsigned bits, uint32_t value) {
 }
 #define R_ABS(a) _mm512_abs_pd(a)
 static inline R r_from_floats(const float *p) { return _mm512_cvtps_pd(_mm256_loadu_ps(p)); }
-static inline R r_gather(const double *p, const uint32_t *index, int stride) {
-    __m256i all = _mm256_loadu_si256((const __m256i *)(const void *)index);
-    return _mm512_i32gather_pd(_mm256_mullo_epi32(all, _mm256_set1_epi32(stride)), p, 8);
+typedef __m256i U;
+static inline U u_of(uint32_t x) { return _mm256_set1_epi32((int)x); }
+static inline U u_load(const uint32_t *p) {
+    return _mm256_loadu_si256((const __m256i *)(const void *)p);
+}
+static inline void u_store(uint32_t *p, U a) { _mm256_storeu_si256((__m256i *)(void *)p, a); }
+static inline U u_gather(const uint32_t *p, U index) {
+    return _mm256_i32gather_epi32((const int *)(const void *)p, index, 4);
+}
+static inline bool u_is_one(U a) { /* all the same */
+    return _mm256_cmpneq_epi32_mask(a, _mm256_broadcastd_epi32(_mm256_castsi256_si128(a))) == 0;
+}
+static inline U u_widen(const uint16_t *p) {
+    return _mm256_cvtepu16_epi32(_mm_loadu_si128((const __m128i *)(const void *)p));
+}
+static inline R r_gather(const double *p, U index, int stride) {
+    return _mm512_i32gather_pd(_mm256_mullo_epi32(index, _mm256_set1_epi32(stride)), p, 8);
 }
 /* Writes the lanes whose bits are set one after the other; there must be room for all. */
 static inline void r_append_floats(float *to, R a, unsigned bits) {
@@ -553,15 +569,6 @@ static inline void u_append_indices(uint32_t *to, unsigned bits, uint32_t base) 
     __m256i all =
         _mm256_add_epi32(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32((int)base));
     _mm256_storeu_si256((__m256i *)(void *)to, _mm256_maskz_compress_epi32((__mmask8)bits, all));
-}
-static inline void u_gather(uint32_t *to, const uint32_t *p, const uint32_t *index) {
-    __m256i all = _mm256_loadu_si256((const __m256i *)(const void *)index);
-    _mm256_storeu_si256(
-        (__m256i *)(void *)to, _mm256_i32gather_epi32((const int *)(const void *)p, all, 4));
-}
-static inline void u_widen(uint32_t *to, const uint16_t *from) {
-    __m128i all = _mm_loadu_si128((const __m128i *)(const void *)from);
-    _mm256_storeu_si256((__m256i *)(void *)to, _mm256_cvtepu16_epi32(all));
 }
 /* Of bytes that are 0 or 1. */
 static inline M m_from_bytes(const uint8_t *p) {
@@ -585,6 +592,10 @@ enum { GI_DOUBLES = 4 };
 #define M_NOT(m)           (~(m))
 #define R_ABS(a)           _mm256_andnot_pd(_mm256_set1_pd(-0.0), a)
 static inline unsigned m_bits(M m) { return (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(m)); }
+static inline M m_from_bits(unsigned bits) {
+    const __m256i each = _mm256_setr_epi64x(1, 2, 4, 8);
+    return _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(bits), each), each);
+}
 static inline M m_from_bytes(const uint8_t *p) {
     int all;
     memcpy(&all, p, sizeof all);
@@ -594,18 +605,23 @@ static inline R r_load(const double *p) { return _mm256_loadu_pd(p); }
 static inline void r_store(double *p, R a) { _mm256_storeu_pd(p, a); }
 static inline void r_store_floats(float *p, R a) { _mm_storeu_ps(p, _mm256_cvtpd_ps(a)); }
 static inline R r_from_floats(const float *p) { return _mm256_cvtps_pd(_mm_loadu_ps(p)); }
-static inline R r_gather(const double *p, const uint32_t *index, int stride) {
-    __m128i all = _mm_loadu_si128((const __m128i *)(const void *)index);
-    return _mm256_i32gather_pd(p, _mm_mullo_epi32(all, _mm_set1_epi32(stride)), 8);
+typedef __m128i U;
+static inline U u_of(uint32_t x) { return _mm_set1_epi32((int)x); }
+static inline U u_load(const uint32_t *p) {
+    return _mm_loadu_si128((const __m128i *)(const void *)p);
 }
-static inline void u_gather(uint32_t *to, const uint32_t *p, const uint32_t *index) {
-    __m128i all = _mm_loadu_si128((const __m128i *)(const void *)index);
-    _mm_storeu_si128(
-        (__m128i *)(void *)to, _mm_i32gather_epi32((const int *)(const void *)p, all, 4));
+static inline void u_store(uint32_t *p, U a) { _mm_storeu_si128((__m128i *)(void *)p, a); }
+static inline U u_gather(const uint32_t *p, U index) {
+    return _mm_i32gather_epi32((const int *)(const void *)p, index, 4);
 }
-static inline void u_widen(uint32_t *to, const uint16_t *from) {
-    __m128i all = _mm_loadl_epi64((const __m128i *)(const void *)from);
-    _mm_storeu_si128((__m128i *)(void *)to, _mm_cvtepu16_epi32(all));
+static inline bool u_is_one(U a) {
+    return _mm_movemask_epi8(_mm_cmpeq_epi32(a, _mm_broadcastd_epi32(a))) == 0xffff;
+}
+static inline U u_widen(const uint16_t *p) {
+    return _mm_cvtepu16_epi32(_mm_loadl_epi64((const __m128i *)(const void *)p));
+}
+static inline R r_gather(const double *p, U index, int stride) {
+    return _mm256_i32gather_pd(p, _mm_mullo_epi32(index, _mm_set1_epi32(stride)), 8);
 }
 #elif defined(GI_IS_SSE2)
 enum { GI_DOUBLES = 2 };
@@ -628,6 +644,9 @@ static inline R r_select(M m, R a, R b) {
         _mm_or_si128(_mm_and_si128(m, M_FROM(a)), _mm_andnot_si128(m, M_FROM(b))));
 }
 static inline unsigned m_bits(M m) { return (unsigned)_mm_movemask_pd(_mm_castsi128_pd(m)); }
+static inline M m_from_bits(unsigned bits) {
+    return _mm_set_epi64x(-(long long)(bits >> 1 & 1), -(long long)(bits & 1));
+}
 static inline M m_from_bytes(const uint8_t *p) {
     return _mm_set_epi64x(-(long long)p[1], -(long long)p[0]);
 }
@@ -636,8 +655,22 @@ static inline void r_store(double *p, R a) { _mm_storeu_pd(p, a); }
 static inline void r_store_floats(float *p, R a) {
     _mm_storel_epi64((__m128i *)(void *)p, _mm_castps_si128(_mm_cvtpd_ps(a)));
 }
-static inline R r_gather(const double *p, const uint32_t *index, int stride) {
-    return _mm_set_pd(p[(size_t)index[1] * (size_t)stride], p[(size_t)index[0] * (size_t)stride]);
+/* Two whole numbers in the lower half. */
+typedef __m128i U;
+static inline U u_of(uint32_t x) { return _mm_set1_epi32((int)x); }
+static inline U u_load(const uint32_t *p) {
+    return _mm_loadl_epi64((const __m128i *)(const void *)p);
+}
+static inline void u_store(uint32_t *p, U a) { _mm_storel_epi64((__m128i *)(void *)p, a); }
+static inline size_t u_first(U a) { return (uint32_t)_mm_cvtsi128_si32(a); }
+static inline size_t u_second(U a) { return u_first(_mm_shuffle_epi32(a, 1)); }
+static inline bool u_is_one(U a) { return u_first(a) == u_second(a); }
+static inline U u_gather(const uint32_t *p, U index) {
+    return _mm_set_epi32(0, 0, (int)p[u_second(index)], (int)p[u_first(index)]);
+}
+static inline U u_widen(const uint16_t *p) { return _mm_set_epi32(0, 0, p[1], p[0]); }
+static inline R r_gather(const double *p, U index, int stride) {
+    return _mm_set_pd(p[u_second(index) * (size_t)stride], p[u_first(index) * (size_t)stride]);
 }
 #else
 enum { GI_DOUBLES = 1 };
@@ -655,12 +688,23 @@ enum { GI_DOUBLES = 1 };
 #define M_NOT(m)           (!(m))
 #define R_ABS(a)           fabs(a)
 static inline unsigned m_bits(M m) { return (unsigned)m; }
+static inline M m_from_bits(unsigned bits) { return (int)bits; }
 static inline M m_from_bytes(const uint8_t *p) { return p[0]; }
 static inline R r_load(const double *p) { return *p; }
 static inline void r_store(double *p, R a) { *p = a; }
 static inline void r_store_floats(float *p, R a) { *p = (float)a; }
-static inline R r_gather(const double *p, const uint32_t *index, int stride) {
-    return p[(size_t)index[0] * (size_t)stride];
+typedef uint32_t U;
+static inline U u_of(uint32_t x) { return x; }
+static inline U u_load(const uint32_t *p) { return *p; }
+static inline void u_store(uint32_t *p, U a) { *p = a; }
+static inline bool u_is_one(U a) {
+    (void)a;
+    return true;
+}
+static inline U u_gather(const uint32_t *p, U index) { return p[index]; }
+static inline U u_widen(const uint16_t *p) { return *p; }
+static inline R r_gather(const double *p, U index, int stride) {
+    return p[(size_t)index * (size_t)stride];
 }
 #endif
 
@@ -684,23 +728,33 @@ static inline void u_append_indices(uint32_t *to, unsigned bits, uint32_t base) 
         to += bits >> i & 1;
     }
 }
-#ifndef GI_IS_AVX2
-static inline void u_gather(uint32_t *to, const uint32_t *p, const uint32_t *index) {
-    for (int i = 0; i < GI_DOUBLES; i++) to[i] = p[index[i]];
-}
-static inline void u_widen(uint32_t *to, const uint16_t *from) {
-    for (int i = 0; i < GI_DOUBLES; i++) to[i] = from[i];
-}
 #endif
+
+/* Rows of three floats, column by column. A fourth number behind each row is read, not used. */
+#if defined(GI_IS_AVX512)
+static inline void r_rows(const float *const rows[GI_DOUBLES], R columns[3]) {
+    F floats[3];
+    eight_coordinates(rows, floats);
+    for (int i = 0; i < 3; i++) columns[i] = _mm512_cvtps_pd(floats[i]);
+}
+#elif defined(GI_IS_AVX2)
+static inline void r_rows(const float *const rows[GI_DOUBLES], R columns[3]) {
+    __m128 a = _mm_loadu_ps(rows[0]), b = _mm_loadu_ps(rows[1]), c = _mm_loadu_ps(rows[2]),
+           d = _mm_loadu_ps(rows[3]);
+    _MM_TRANSPOSE4_PS(a, b, c, d);
+    columns[0] = _mm256_cvtps_pd(a);
+    columns[1] = _mm256_cvtps_pd(b);
+    columns[2] = _mm256_cvtps_pd(c);
+}
+#elif defined(GI_IS_SSE2)
+static inline void r_rows(const float *const rows[GI_DOUBLES], R columns[3]) {
+    for (int i = 0; i < 3; i++) columns[i] = _mm_set_pd((double)rows[1][i], (double)rows[0][i]);
+}
+#else
+static inline void r_rows(const float *const rows[GI_DOUBLES], R columns[3]) {
+    for (int i = 0; i < 3; i++) columns[i] = (double)rows[0][i];
+}
 #endif
 
 /* As R_SELECT, of what comparisons give. */
 #define R_SELECT_M(m, a, b) (((m) & (a)) | (M_NOT(m) & (b)))
-
-/* As many numbers as R has lanes. */
-static inline void u_copy(uint32_t *to, const uint32_t *from) {
-    memcpy(to, from, GI_DOUBLES * sizeof *to);
-}
-static inline void u_fill(uint32_t *to, uint32_t value) {
-    for (int i = 0; i < GI_DOUBLES; i++) to[i] = value;
-}

@@ -35,7 +35,10 @@ static uint32_t *find_slot(const GiNames *names, GiSpan name, uint32_t hash) {
         uint32_t *slot = &names->slots[i & (names->slot_count - 1)];
         if (*slot == 0) return slot;
         const GiNamed *entry = &names->entries.data[*slot - 1];
-        if (entry->hash == hash && gi_span_is(name, names->text.data + entry->text)) return slot;
+        if (entry->hash == hash && entry->size == name.size &&
+            gi_span_equals(name, names->text.data + entry->text)) {
+            return slot;
+        }
     }
 }
 
@@ -59,13 +62,15 @@ bool gi_names_set(GiNames *names, GiSpan name, GiNamed named) {
     size_t size = name.size + 1;
     if (names->entries.count * 2 >= names->slot_count && !grow(names)) return false;
     named.hash = hash_text(names, name);
+    named.size = (uint32_t)name.size;
     uint32_t *slot = find_slot(names, name, named.hash);
     if (*slot != 0) {
         named.text = names->entries.data[*slot - 1].text;
         names->entries.data[*slot - 1] = named;
         return true;
     }
-    if (names->text.count > UINT32_MAX - size || names->entries.count >= UINT32_MAX - 1 ||
+    if (size > UINT32_MAX || names->text.count > UINT32_MAX - size ||
+        names->entries.count >= UINT32_MAX - 1 ||
         !gi_array_reserve(names->memory, &names->text, size)) {
         return false;
     }

@@ -9,6 +9,7 @@
 
 typedef struct GiNamed {
     uint32_t text; /* into the map's text */
+    uint32_t size; /* of the name */
     uint32_t hash;
     uint8_t kind;   /* GiKind */
     bool broken;    /* its definition has an error, which is reported: a use of it is not another */

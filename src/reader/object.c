@@ -20,7 +20,7 @@ static uint32_t group_of(const GiFrame *parent) {
 
 void gi_object_name(GiReader *reader, const GiFrame *frame, GiNamed named) {
     const char *name = reader->tags.data + frame->name;
-    if (name[0] == '\0') return;
+    if (!gi_reader_is_named(reader, frame)) return;
     if (!gi_names_set(&reader->names, gi_span(name), named)) gi_reader_out_of_memory(reader);
 }
 
@@ -31,8 +31,16 @@ void gi_object_remember(GiReader *reader, const GiFrame *frame, GlintObjectKind 
     if (!gi_sources_add(sources, kind, frame->place.offset, name)) gi_reader_out_of_memory(reader);
 }
 
+void gi_object_remember_idle(GiReader *reader, const GiFrame *frame) {
+    GiSources *sources = reader->source->sources;
+    if (sources == NULL) return;
+    if (!gi_array_push(sources->memory, &sources->idle, frame->place.offset)) {
+        gi_reader_out_of_memory(reader);
+    }
+}
+
 void gi_object_name_value(GiReader *reader, const GiFrame *frame, GiVec value) {
-    if (reader->tags.data[frame->name] == '\0') return;
+    if (!gi_reader_is_named(reader, frame)) return;
     uint32_t index = (uint32_t)reader->names.values.count;
     if (!gi_array_push(reader->memory, &reader->names.values, value)) {
         gi_reader_out_of_memory(reader);
@@ -218,7 +226,7 @@ static void finish_camera(GiReader *reader, GiFrame *frame) {
     reader->scene->camera = camera;
     reader->scene->has_camera = true;
     gi_object_remember(reader, frame, GLINT_OBJECT_CAMERA);
-    if (reader->tags.data[frame->name] == '\0') return;
+    if (!gi_reader_is_named(reader, frame)) return;
     uint32_t index = (uint32_t)reader->cameras.count;
     if (!gi_array_push(reader->memory, &reader->cameras, camera)) {
         gi_reader_out_of_memory(reader);
@@ -430,7 +438,9 @@ static void finish_surface(GiReader *reader, GiFrame *frame, GiFrame *parent) {
         gi_object_remember(reader, frame, GLINT_OBJECT_SURFACE);
     }
     place_shape(reader, parent, ref);
-    gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_SURFACE, .shape = ref});
+    if (gi_reader_is_named(reader, frame)) {
+        gi_object_name(reader, frame, (GiNamed){.kind = GI_KIND_SURFACE, .shape = ref});
+    }
 }
 
 /* ---------------------------------------------------------------- the whole */
@@ -496,5 +506,5 @@ void gi_object_refer(GiReader *reader, GiFrame *frame, GiFrame *parent, const Gi
         break;
     }
     }
-    gi_object_name(reader, frame, copy);
+    if (gi_reader_is_named(reader, frame)) gi_object_name(reader, frame, copy);
 }

@@ -28,7 +28,7 @@ typedef struct Scan {
     GiScanner *scanner;
     const uint8_t *classes;
     const char *bytes, *end, *fault;
-    GiTape *tape;
+    GiTapeEntry *entry; /* the next of the tape; there is room for a step */
     bool out_of_memory;
 } Scan;
 
@@ -93,11 +93,8 @@ static const char *skip_blank(const Scan *scan, const char *p) {
 /* ---------------------------------------------------------------- tape */
 
 static GiToken *put(Scan *scan, GiTokenKind kind, const char *begin, const char *end) {
-    GiToken *token = &scan->tape->entries.data[scan->tape->entries.count++].token;
-    token->at = (uint32_t)(begin - scan->bytes);
-    token->size = (uint16_t)(end - begin);
-    token->kind = (uint8_t)kind;
-    token->count = 0;
+    GiToken *token = &scan->entry++->token;
+    *token = (GiToken){(uint32_t)(begin - scan->bytes), (uint16_t)(end - begin), (uint8_t)kind, 0};
     return token;
 }
 
@@ -107,23 +104,23 @@ static GiToken *put(Scan *scan, GiTokenKind kind, const char *begin, const char 
 static const char *scan_numbers(Scan *scan, const char *p) {
     const char *q = skip_blank(scan, p);
     if (!is(scan, *q, NUMBER)) return NULL;
-    size_t first = scan->tape->entries.count;
+    GiTapeEntry *first = scan->entry;
     GiToken *token = put(scan, GI_TOKEN_NUMBERS, p, p);
     while (*q != '<') {
         size_t used;
-        GiTapeEntry *entry = &scan->tape->entries.data[scan->tape->entries.count];
         if (token->count == GI_TAPE_NUMBER_LIMIT || !is(scan, *q, NUMBER) ||
-            gi_number_read(q, (size_t)(scan->end - q), &entry->number, &used) != GI_NUMBER_OK ||
+            gi_number_read(q, (size_t)(scan->end - q), &scan->entry->number, &used) !=
+                GI_NUMBER_OK ||
             (q[used] != '<' && !is(scan, q[used], BLANK))) {
-            scan->tape->entries.count = first;
+            scan->entry = first;
             return NULL;
         }
-        scan->tape->entries.count++;
+        scan->entry++;
         token->count++;
         q = skip_blank(scan, q + used);
     }
     if (q[1] != '/' || q - p > TOKEN_LIMIT) {
-        scan->tape->entries.count = first;
+        scan->entry = first;
         return NULL;
     }
     token->size = (uint16_t)(q - p);
@@ -168,7 +165,7 @@ static bool push_open(Scan *scan, const char *tag, size_t size) {
         scan->out_of_memory = true;
         return false;
     }
-    memcpy(scanner->open.data + scanner->open.count, tag, size);
+    gi_span_copy((GiSpan){tag, size}, scanner->open.data + scanner->open.count);
     scanner->open.data[scanner->open.count + size] = '>';
     scanner->open.count += size + 1;
     return true;
@@ -179,7 +176,7 @@ static const char *scan_start(Scan *scan, const char *tag) {
     while (is(scan, *p, NAME)) p++;
     const char *name_end = p;
     if (p - tag > NAME_LIMIT) return fail(scan, p);
-    size_t first = scan->tape->entries.count;
+    const GiTapeEntry *first = scan->entry;
     GiToken *token = put(scan, GI_TOKEN_START, tag, name_end);
     while (*p != '>' && *p != '/') {
         const char *q = skip_blank(scan, p);
@@ -189,7 +186,7 @@ static const char *scan_start(Scan *scan, const char *tag) {
         if (token->count == GI_TAPE_ATTRIBUTE_LIMIT) return fail(scan, p);
         p = scan_attribute(scan, p);
         if (p == NULL) return NULL;
-        if (repeats_name(scan, scan->tape->entries.data + first + 1, ++token->count)) {
+        if (repeats_name(scan, first + 1, ++token->count)) {
             return fail(scan, tag);
         }
     }
@@ -210,7 +207,9 @@ static const char *scan_end(Scan *scan, const char *tag) {
     size_t start = scanner->starts.data[scanner->starts.count - 1];
     size_t size = scanner->open.count - start - 1; /* of the name and > */
     if ((size_t)(scan->end - tag) < size + 2) return fail(scan, scan->end);
-    if (memcmp(scanner->open.data + start + 1, tag + 2, size) != 0) return fail(scan, tag);
+    if (!gi_span_equals((GiSpan){tag + 2, size}, scanner->open.data + start + 1)) {
+        return fail(scan, tag);
+    }
     scanner->open.count = start;
     scanner->starts.count--;
     put(scan, GI_TOKEN_END, tag, tag + 2 + size);
@@ -281,23 +280,18 @@ static const char *scan_one(Scan *scan, const char *p) {
 }
 
 GiScanStatus gi_scan(GiScanner *scanner, const char *bytes, size_t size, GiTape *tape) {
-    Scan scan = {.scanner = scanner,
-        .classes = scanner->classes,
-        .bytes = bytes,
-        .end = bytes + size,
-        .tape = tape};
+    Scan scan = {
+        .scanner = scanner, .classes = scanner->classes, .bytes = bytes, .end = bytes + size};
     const char *p = bytes;
     tape->begin = scanner->next;
     tape->entries.count = 0;
     scan.fault = scan.end;
     while (p < scan.end) {
-        size_t count = tape->entries.count;
         if (!gi_array_reserve(scanner->memory, &tape->entries, STEP_LIMIT)) return GI_SCAN_MEMORY;
+        scan.entry = tape->entries.data + tape->entries.count;
         const char *next = scanner->begun ? scan_one(&scan, p) : scan_prologue(&scan, p);
-        if (next == NULL) {
-            tape->entries.count = count;
-            break;
-        }
+        if (next == NULL) break;
+        tape->entries.count = (size_t)(scan.entry - tape->entries.data);
         scanner->begun = true;
         p = next;
     }

@@ -110,6 +110,9 @@ static inline GiFrame *gi_reader_parent(GiReader *reader) {
     size_t count = reader->frames.count;
     return count < 2 ? NULL : &reader->frames.data[count - 2];
 }
+static inline bool gi_reader_is_named(const GiReader *reader, const GiFrame *frame) {
+    return reader->tags.data[frame->name] != '\0';
+}
 static inline bool gi_reader_is_given(const GiReader *reader, GiSlot slot) {
     return (reader->given >> slot & 1) != 0;
 }
@@ -183,10 +186,13 @@ void gi_object_finish(GiReader *reader, GiFrame *frame, GiFrame *parent);
 void gi_object_check_groups(GiReader *reader, GlintDialect dialect);
 /* Uses a named thing as if it had been written here. */
 void gi_object_refer(GiReader *reader, GiFrame *frame, GiFrame *parent, const GiNamed *named);
-/* Remembers what the frame stands for under its name, when it has one. */
+/* Remembers what the frame stands for under its name, when it has one. Where most have none this is
+ * asked before, so that nothing is put together for it. */
 void gi_object_name(GiReader *reader, const GiFrame *frame, GiNamed named);
 /* Remembers where an object that has just been added stands, if anybody wants to know. */
 void gi_object_remember(GiReader *reader, const GiFrame *frame, GlintObjectKind kind);
+/* The same of a shader that is not added, since nothing has it and nothing can refer to it. */
+void gi_object_remember_idle(GiReader *reader, const GiFrame *frame);
 /* Remembers a value. */
 void gi_object_name_value(GiReader *reader, const GiFrame *frame, GiVec value);
 

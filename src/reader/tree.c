@@ -87,7 +87,7 @@ static GiFrame *push_frame(GiReader *reader, GiSpan tag, int64_t offset) {
     }
     char *copy = reader->tags.data + reader->tags.count;
     size_t length = tag.size < TAG_SHOWN ? tag.size : TAG_SHOWN;
-    for (size_t i = 0; i < length; i++) copy[i] = tag.data[i];
+    gi_span_copy((GiSpan){tag.data, length}, copy);
     copy[length] = '\0';
     /* Written where it stays: copying what was just put together member by member stalls. */
     GiFrame *frame = &reader->frames.data[reader->frames.count++];

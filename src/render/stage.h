@@ -75,8 +75,6 @@ struct GiTileScratch {
     GiFlight chunk[GI_FLIGHT_CHUNK];
     GI_ARRAY(GiFlight) flights;
     GI_ARRAY(GiFlightRange) ranges;
-    uint32_t *head; /* for each shader, while points are sorted: the first of its rays */
-    size_t shader_count;
     int segment_count;
     bool weighted; /* factors are in use */
     bool shared;   /* points may have a pixel in common, so light goes to the pixels at once */
@@ -100,11 +98,12 @@ typedef struct GiStage {
     GiTileScratch *scratch;
     GiRenderCounts *counts;
     const GiRenderTarget *target;
+    GiRecord *record;      /* the target's */
     uint32_t x, y, sample; /* the tile's corner in the whole picture; number of the sample */
 } GiStage;
 
 /* Whether the pixel is drawn to be explained (render/record.h). */
-static inline bool gi_stage_records(const GiStage *stage) { return stage->target->record != NULL; }
+static inline bool gi_stage_records(const GiStage *stage) { return stage->record != NULL; }
 
 /* Whether to stop; asks the caller now and then. */
 bool gi_stage_stopped(const GiStage *stage);

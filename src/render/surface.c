@@ -61,13 +61,6 @@ GiShading gi_surface_shading(const GiStage *stage, int i) {
     };
 }
 
-/* What shadow rays from a point of the shape do not meet. */
-static inline uint32_t skip_of(const GiWorld *world, GiShapeRef shape) {
-    if (world->rules->sphere_shadows_itself) return GI_SHAPE_NONE;
-    GiShapeRef own = gi_shape_unplaced(&world->shapes, shape);
-    return gi_shape_kind(own) == GI_SHAPE_SPHERE ? shape.bits : GI_SHAPE_NONE;
-}
-
 /* The next `count` points have this shader: goes on with the last segment, or begins another. */
 static inline void extend_segment(GiTileScratch *scratch, uint32_t shader, int count) {
     int last = scratch->segment_count - 1, begin = scratch->points.count;
@@ -342,7 +335,7 @@ static void meet_surface(const GiStage *stage, const Met *met, uint32_t shader_i
     GiTileScratch *scratch = stage->scratch;
     const GiShader *shader = &world->scene->shaders.data[shader_index];
     GiSurfacePoint at = point_of(world, met);
-    Place place = {met->pixel, skip_of(world, met->shape), met->instance, {shader_index, 1}};
+    Place place = {met->pixel, gi_world_skip(world, met->shape), met->instance, {shader_index, 1}};
     show_first(stage, met->pixel, shine_of(stage, shader, at.normal));
     if (scratch->seen != NULL) note_seen(stage, met, &at, shader);
     meet_layers(stage, met, &at, shader, place);
@@ -368,7 +361,8 @@ static inline void meet_plain(const GiStage *stage, uint32_t i, uint32_t shader_
     }
     if (scratch->weighted) scratch->factors[scratch->points.count] = white();
     extend_segment(scratch, shader_index, 1);
-    const Place place = {pixel, skip_of(world, shape), bundle->instance[i], {shader_index, 1}};
+    const Place place = {
+        pixel, gi_world_skip(world, shape), bundle->instance[i], {shader_index, 1}};
     add_point(scratch, &at, direction, &place);
 }
 
@@ -377,7 +371,6 @@ static void meet_dark(
     const GiStage *stage, const uint32_t *rays, int count, uint32_t shader_index) {
     const GiWorld *world = stage->world;
     GiTileScratch *scratch = stage->scratch;
-    if (count == 0) return;
     int begin = scratch->points.count;
     extend_segment(scratch, shader_index, count);
     bool sphere = gi_shape_kind((GiShapeRef){scratch->bundle.shape[rays[0]]}) == GI_SHAPE_SPHERE;
@@ -390,30 +383,36 @@ static void meet_dark(
     }
 }
 
-/* The rays that met surfaces of one shader: a list that begins with `first`. */
-static void meet_shader(
-    const GiStage *stage, uint32_t shader_index, uint32_t first, const uint32_t *next) {
-    enum { KINDS = GI_SHAPE_CONE + 1 }; /* that the kernels know: spheres, boxes, cones */
+/* By what rays are sorted: the shader of what they met, and its kind where the kernels make points
+ * of such; GI_SHAPE_PLACED stands for all the others. */
+enum { KEY_KIND_BITS = 3 };
+
+static inline uint32_t key_of(const GiWorld *world, GiShapeRef shape, uint32_t instance) {
+    GiShapeKind kind = gi_shape_kind(shape);
+    bool known = kind <= GI_SHAPE_CONE || kind == GI_SHAPE_TRIANGLE;
+    uint32_t shader = gi_shape_info(&world->shapes, shape, instance)->shader;
+    return shader << KEY_KIND_BITS |
+           (known && instance == GI_SHAPE_NONE ? (uint32_t)kind : GI_SHAPE_PLACED);
+}
+
+/* The rays of one key. */
+static void meet_group(const GiStage *stage, uint32_t key, const uint32_t *rays, int count) {
     const GiTileScratch *scratch = stage->scratch;
-    const GiBundle *bundle = &scratch->bundle;
-    const GiShader *shader = &stage->world->scene->shaders.data[shader_index];
+    uint32_t index = key >> KEY_KIND_BITS, kind = key & ((1 << KEY_KIND_BITS) - 1);
+    const GiShader *shader = &stage->world->scene->shaders.data[index];
     bool plain = is_plain(stage->world, shader);
     bool dark = plain && shader->type != GLINT_SHADER_RGB_NORMALS && scratch->seen == NULL;
-    uint32_t rays[KINDS][GI_BUNDLE_SIZE];
-    int count[KINDS] = {0};
-    for (uint32_t i = first; i != GI_NONE; i = next[i]) {
-        int kind = (int)gi_shape_kind((GiShapeRef){bundle->shape[i]});
-        if (dark && kind < KINDS && bundle->instance[i] == GI_SHAPE_NONE) {
-            rays[kind][count[kind]++] = i;
-        } else if (plain) {
-            meet_plain(stage, i, shader_index);
-        } else {
-            const Met met = met_of_bundle(bundle, i);
-            meet_surface(stage, &met, shader_index);
-        }
+    if (dark && kind != GI_SHAPE_PLACED) {
+        meet_dark(stage, rays, count, index);
+        return;
     }
-    for (int kind = 0; kind < KINDS; kind++) {
-        meet_dark(stage, rays[kind], count[kind], shader_index);
+    for (int i = 0; i < count; i++) {
+        if (plain) {
+            meet_plain(stage, rays[i], index);
+        } else {
+            const Met met = met_of_bundle(&scratch->bundle, rays[i]);
+            meet_surface(stage, &met, index);
+        }
     }
 }
 
@@ -423,30 +422,25 @@ void gi_surface_bundle(const GiStage *stage) {
     const GiWorld *world = stage->world;
     GiTileScratch *scratch = stage->scratch;
     const GiBundle *bundle = &scratch->bundle;
-    uint32_t next[GI_BUNDLE_SIZE], shaders[GI_BUNDLE_SIZE];
-    int shader_count = 0;
+    uint32_t keys[GI_BUNDLE_ROOM], rays[GI_BUNDLE_ROOM];
+    int ends[GI_BUNDLE_SIZE];
     if (gi_stage_records(stage)) gi_record_camera(stage);
-    for (uint32_t i = (uint32_t)bundle->count; i-- > 0;) {
+    for (int i = 0; i < bundle->count; i++) {
         GiShapeRef shape = {bundle->shape[i]};
+        keys[i] = GI_NO_KEY;
         if (shape.bits == GI_SHAPE_NONE) {
             GiVec direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]};
             show_first(stage, bundle->pixel[i], background(stage, NULL, direction));
-            continue;
-        }
-        if (gi_shape_kind(shape) == GI_SHAPE_RECTANGLE) {
-            Met met = met_of_bundle(bundle, i);
+        } else if (gi_shape_kind(shape) == GI_SHAPE_RECTANGLE) {
+            Met met = met_of_bundle(bundle, (uint32_t)i);
             show_first(stage, met.pixel, rectangle_emission(stage, NULL, &met));
-            continue;
+        } else {
+            keys[i] = key_of(world, shape, bundle->instance[i]);
         }
-        uint32_t shader = gi_shape_info(&world->shapes, shape, bundle->instance[i])->shader;
-        uint32_t *head = &scratch->head[shader];
-        if (*head == GI_NONE) shaders[shader_count++] = shader;
-        next[i] = *head;
-        *head = i;
     }
-    for (int k = 0; k < shader_count; k++) {
-        meet_shader(stage, shaders[k], scratch->head[shaders[k]], next);
-        scratch->head[shaders[k]] = GI_NONE;
+    int count = world->kernel->group(keys, bundle->count, rays, ends);
+    for (int k = 0, begin = 0; k < count; begin = ends[k++]) {
+        meet_group(stage, keys[rays[begin]], rays + begin, ends[k] - begin);
     }
     if (gi_stage_records(stage)) gi_record_points(stage, 0);
 }
@@ -476,7 +470,7 @@ void gi_surface_flight(const GiStage *stage, const GiFlight *flight, const GiTra
     GiVec shine = shine_of(stage, shader, at.normal);
     show(stage, flight->pixel, flight->ray, gi_multiply(flight->factor, shine));
     Place place = {
-        flight->pixel, skip_of(world, hit->shape), hit->instance, {index, flight->level}};
+        flight->pixel, gi_world_skip(world, hit->shape), hit->instance, {index, flight->level}};
     meet_layers(stage, &met, &at, shader, place);
     if (gi_stage_records(stage)) gi_record_points(stage, flight->ray);
 }

@@ -13,23 +13,19 @@ enum {
 
 GiTileScratch *gi_tile_scratch_create(const GiWorld *world, const GiRenderTarget *target) {
     GiMemory *memory = world->scene->memory;
-    size_t shader_count = world->scene->shaders.count;
     GiTileScratch *scratch = gi_memory_allocate_lines(memory, 1, sizeof *scratch);
     if (scratch == NULL) return NULL;
     bool sees = target->depth != NULL || target->normal != NULL || target->albedo != NULL ||
                 target->surface != NULL;
     memset(&scratch->flights, 0, sizeof scratch->flights);
     memset(&scratch->ranges, 0, sizeof scratch->ranges);
-    scratch->shader_count = shader_count;
     scratch->points.count = scratch->segment_count = 0;
     scratch->weighted = scratch->out_of_memory = false;
-    scratch->head = gi_memory_allocate(memory, shader_count * sizeof *scratch->head);
     scratch->seen = sees ? gi_memory_allocate(memory, SEEN_SIZE) : NULL;
-    if (scratch->head == NULL || (sees && scratch->seen == NULL)) {
+    if (sees && scratch->seen == NULL) {
         gi_tile_scratch_destroy(memory, scratch);
         return NULL;
     }
-    for (size_t i = 0; i < shader_count; i++) scratch->head[i] = GI_NONE;
     return scratch;
 }
 
@@ -37,7 +33,6 @@ void gi_tile_scratch_destroy(GiMemory *memory, GiTileScratch *scratch) {
     if (scratch == NULL) return;
     gi_array_free(memory, &scratch->flights);
     gi_array_free(memory, &scratch->ranges);
-    gi_memory_free(memory, scratch->head, scratch->shader_count * sizeof *scratch->head);
     gi_memory_free(memory, scratch->seen, SEEN_SIZE);
     gi_memory_free_lines(memory, scratch, 1, sizeof *scratch);
 }
@@ -146,7 +141,6 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Gi
     GiTileScratch *scratch = stage->scratch;
     scratch->points.count = scratch->segment_count = 0;
     scratch->weighted = scratch->shared = false;
-    memset(scratch->color, 0, (size_t)(extent->height * STRIDE) * sizeof *scratch->color);
     gi_tile_aim(stage, area, extent, offset_x, offset_y);
     for (int y = 0; y < extent->height; y += GI_BLOCK_SIDE) {
         for (int x = 0; x < extent->width; x += GI_BLOCK_SIDE) {
@@ -220,14 +214,14 @@ static bool store(const GiStage *stage, const GiRenderArea *area, const GiTileEx
         size_t at = (size_t)(y + row) * (size_t)area->crop_width + (size_t)x;
         float own[3 * STRIDE], *color = target->color != NULL ? target->color + 3 * at : own;
         store_color(sum + row * STRIDE, extent->width, count, exposure, color);
-        if (target->png != NULL &&
-            !gi_png_put(target->png, x, y + row, extent->width, color, stage->control->worker)) {
+        if (target->png != NULL && !gi_png_put(target->png, x, y + row, extent->width, color)) {
             return false;
         }
         if (scratch->seen == NULL) continue;
         store_seen(scratch->seen + row * STRIDE, extent->width, count, at, target);
     }
-    return true;
+    return target->png == NULL ||
+           gi_png_account(target->png, y, extent->height, extent->width, stage->control->worker);
 }
 
 bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
@@ -236,8 +230,8 @@ bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
     GiTileExtent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
     if (extent.width > side) extent.width = side;
     if (extent.height > side) extent.height = side;
-    GiStage stage = {
-        world, control, scratch, counts, target, (uint32_t)extent.x, (uint32_t)extent.y, 0};
+    GiStage stage = {world, control, scratch, counts, target, target->record, (uint32_t)extent.x,
+        (uint32_t)extent.y, 0};
     scratch->bundle.stop = ask;
     scratch->bundle.stop_context = control;
     int n = grid_of(target->samples);

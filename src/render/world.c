@@ -96,17 +96,24 @@ static bool add_light_rectangles(GiWorld *world, GiScene *scene) {
     return true;
 }
 
-/* The kernels read a position as four numbers (kernel/wide.h), so one follows the last. */
-static bool pad_positions(GiScene *scene) {
-    GiMeshStore *meshes = &scene->meshes;
-    if (meshes->positions.capacity > meshes->positions.count) return true;
-    size_t size = sizeof *meshes->positions.data, count = meshes->positions.count;
-    void *data =
-        gi_memory_resize(scene->memory, meshes->positions.data, count * size, (count + 1) * size);
+/* The kernels read a position or a normal as four numbers (kernel/wide.h), so one more row follows
+ * the last. */
+static bool pad(GiMemory *memory, GiFloat3 **rows, size_t count, size_t *capacity) {
+    if (*capacity > count) return true;
+    GiFloat3 *data =
+        gi_memory_resize(memory, *rows, count * sizeof *data, (count + 1) * sizeof *data);
     if (data == NULL) return false;
-    meshes->positions.data = data;
-    meshes->positions.capacity = count + 1;
+    *rows = data;
+    *capacity = count + 1;
     return true;
+}
+
+static bool pad_meshes(GiScene *scene) {
+    GiMeshStore *meshes = &scene->meshes;
+    return pad(scene->memory, &meshes->positions.data, meshes->positions.count,
+               &meshes->positions.capacity) &&
+           pad(scene->memory, &meshes->normals.data, meshes->normals.count,
+               &meshes->normals.capacity);
 }
 
 static GlintStatus prepare(
@@ -123,7 +130,7 @@ static GlintStatus prepare(
             error, GLINT_ERROR_SCENE, "the scene's meshes have more than 2^27 triangles");
     }
     if (!add_light_rectangles(world, scene)) return gi_error_memory(error);
-    if (scene->meshes.corners.count > 0 && !pad_positions(scene)) return gi_error_memory(error);
+    if (scene->meshes.corners.count > 0 && !pad_meshes(scene)) return gi_error_memory(error);
     return gi_spread(scene, world->rules, monitor, &world->spread, error);
 }
 

@@ -197,16 +197,6 @@ static GiSurfacePoint flat_point(GiVec point, GiVec normal, GiVec p) {
         gi_largest(gi_sub(p, point)));
 }
 
-/* A row of corner indices into the normals or texture coordinates; false: there is none. */
-static bool corner_row(const uint32_t (*rows)[3], uint32_t first, const GiMesh *mesh,
-    const GiTriangles *triangles, uint32_t triangle, uint32_t row[3]) {
-    for (int i = 0; i < 3; i++) {
-        row[i] = rows != NULL ? rows[triangle - mesh->first_triangle][i]
-                              : triangles->corners[triangle][i] - mesh->first_position + first;
-    }
-    return row[0] != GI_SHAPE_NONE;
-}
-
 static GiSurfacePoint triangle_point(
     const GiShapes *shapes, uint32_t triangle, GiVec origin, GiVec direction) {
     const GiTriangles *triangles = &shapes->triangles;
@@ -232,8 +222,7 @@ static GiSurfacePoint triangle_point(
     GiSurfacePoint at = facing(p, geometric, size);
     const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, triangle)];
     uint32_t row[3];
-    if (mesh->smooth && corner_row((const uint32_t(*)[3])mesh->normal_corners, mesh->first_normal,
-                            mesh, triangles, triangle, row)) {
+    if (gi_triangle_normals(shapes, triangle, mesh, row)) {
         GiVec blend = {0, 0, 0};
         for (int i = 0; i < 3; i++) {
             blend = gi_along(blend, corner_vec(triangles->normals[row[i]]), part[i]);
@@ -336,8 +325,8 @@ static void triangle_texcoord(
     const GiTriangles *triangles = &shapes->triangles;
     const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, triangle)];
     uint32_t row[3];
-    if (!mesh->textured || !corner_row((const uint32_t(*)[3])mesh->texcoord_corners,
-                               mesh->first_texcoord, mesh, triangles, triangle, row)) {
+    if (!mesh->textured || !gi_triangle_row(triangles, triangle, mesh, mesh->texcoord_corners,
+                               mesh->first_texcoord, row)) {
         return;
     }
     const float *corners[3];

@@ -193,6 +193,25 @@ static inline void gi_triangle_corners(
     for (int i = 0; i < 3; i++) corners[i] = triangles->positions[rows[i]];
 }
 
+/* A mesh's row of corner indices into the normals or the texture coordinates: those of its own,
+ * `rows`, or, where it has none, the positions' rows, counted from `first`. False: the triangle has
+ * no such corners. */
+static inline bool gi_triangle_row(const GiTriangles *triangles, uint32_t triangle,
+    const GiMesh *mesh, uint32_t (*const rows)[3], uint32_t first, uint32_t row[3]) {
+    for (int i = 0; i < 3; i++) {
+        row[i] = rows != NULL ? rows[triangle - mesh->first_triangle][i]
+                              : triangles->corners[triangle][i] - mesh->first_position + first;
+    }
+    return row[0] != GI_SHAPE_NONE;
+}
+
+/* The same of normals alone. */
+static inline bool gi_triangle_normals(
+    const GiShapes *shapes, uint32_t triangle, const GiMesh *mesh, uint32_t row[3]) {
+    return mesh->smooth && gi_triangle_row(&shapes->triangles, triangle, mesh, mesh->normal_corners,
+                               mesh->first_normal, row);
+}
+
 /* The smallest box round a shape or an instance; infinite for a plane. Empty (low above high) for a
  * triangle without area: it can not be met, and is left out of trees. */
 GiBox gi_shape_bounds(const GiShapes *shapes, GiShapeRef ref, uint32_t instance);
