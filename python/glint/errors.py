@@ -38,6 +38,10 @@ class Diagnostic:
     """Index into excerpt of the place, in characters."""
     caret_length: int
     """At least 1."""
+    rule: str | None
+    """The name of the rule of glint check that found it; None for none."""
+    hint: str | None
+    """How to mend it; None where there is nothing to say."""
     text: str
     """All of it, laid out; each line ends with a newline."""
 
@@ -59,6 +63,8 @@ class Diagnostic:
             excerpt=None if found.excerpt is None else text(found.excerpt),
             caret=found.caret,
             caret_length=found.caret_length,
+            rule=None if found.rule is None else text(found.rule),
+            hint=None if found.hint is None else text(found.hint),
             text=text(buffer.value),
         )
 
