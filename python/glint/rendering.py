@@ -9,7 +9,7 @@ from ctypes import POINTER, byref, pointer
 from typing import Any
 
 from . import _abi
-from ._abi import Sampling
+from ._abi import Sampling, Show
 from ._arrays import address, make
 from ._descs import choose, desc
 from ._handle import Handle, path_bytes
@@ -34,6 +34,7 @@ class Rendering(Handle):
         layers: Sequence[str] = (),
         sampling: Sampling | str = Sampling.SOBOL,
         camera: Camera | None = None,
+        show: Show | str = Show.PICTURE,
         embed: bool = False,
         progress: Progress | None = None,
     ) -> Image:
@@ -48,6 +49,8 @@ class Rendering(Handle):
         sampling: where samples of large lights and paths fall: "sobol", or "random", which is
         noisier, to compare with.
         camera: in the place of the scene's; nothing is built anew, see Scene.camera.
+        show: what the pixels are: "picture", "normal", "depth", "uv", "id", "cost" or "shadow";
+        docs/views.md shows them.
         embed: put the scene and all its files into the recipe, and so into a PNG; the scene must
         have been loaded with keep_sources.
         progress: is called with the Phase and the share done, from 0 to 1; to stop, it raises any
@@ -55,7 +58,9 @@ class Rendering(Handle):
         """
         if isinstance(layers, str):
             layers = [layers]
-        settings = self._render_desc(width, height, samples, crop, light, sampling, camera)
+        settings = self._render_desc(
+            width, height, samples, crop, light, sampling, camera, show
+        )
         across, down = self._size(settings)
         pixels = make("f", down, across, 3)
         found = {
@@ -83,6 +88,7 @@ class Rendering(Handle):
         layers: Sequence[str] = (),
         sampling: Sampling | str = Sampling.SOBOL,
         camera: Camera | None = None,
+        show: Show | str = Show.PICTURE,
         embed: bool = False,
         progress: Progress | None = None,
     ) -> None:
@@ -106,12 +112,15 @@ class Rendering(Handle):
                 layers=layers,
                 sampling=sampling,
                 camera=camera,
+                show=show,
                 embed=embed,
                 progress=progress,
             )
             image.save(path, progress=progress)
             return
-        settings = self._render_desc(width, height, samples, crop, light, sampling, camera)
+        settings = self._render_desc(
+            width, height, samples, crop, light, sampling, camera, show
+        )
         title = self._title()
         save = desc(self._library, "save")
         save.title = None if title is None else title.encode("utf-8", "replace")
@@ -131,6 +140,7 @@ class Rendering(Handle):
         light: int,
         sampling: Sampling | str,
         camera: Camera | None,
+        show: Show | str = Show.PICTURE,
     ) -> Any:
         values: dict[str, Any] = {}
         if crop is not None:
@@ -140,14 +150,15 @@ class Rendering(Handle):
             values = dict(zip(names, crop))
         kind = choose(Sampling, "sampling", sampling)
         values.update(width=width, height=height, samples=samples, light=light, sampling=kind)
+        values.update(show=choose(Show, "show", show))
         settings = desc(self._library, "render", **values)
         if camera is not None:
             settings.camera = pointer(camera._struct())
         return settings
 
     def _recipe(self, settings: Any, embed: bool) -> Recipe | None:
-        """Of what would be drawn; there is none with another camera."""
-        if settings.camera and not embed:
+        """Of what would be drawn; there is none with another camera, or of what is no picture."""
+        if (settings.camera or settings.show) and not embed:
             return None
         found = POINTER(_abi.GlintRecipe)()
         self._call("glint_scene_recipe", byref(settings), embed, byref(found))

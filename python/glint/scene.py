@@ -203,6 +203,14 @@ class Scene(Building, Explaining, Tracing):
         """The findings in its file: warnings at most, or there would be no scene."""
         return tuple(self._diagnostics)
 
+    def check(self, *, progress: Progress | None = None) -> tuple[Diagnostic, ...]:
+        """What is legal in the scene but surely a mistake, or may be one: warnings and notes, in
+        the order of the file. A scene loaded with keep_sources has places for them."""
+        self.commit(progress=progress)
+        before = len(self._diagnostics)
+        self._long_call("glint_scene_check", progress=progress)
+        return tuple(self._diagnostics[before:])
+
     @property
     def info(self) -> SceneInfo:
         """What it holds."""

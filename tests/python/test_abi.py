@@ -55,6 +55,13 @@ def c_constant(kind, member):
             if re.search(rf"\b{prefix}{short}\b", text) or (listed and prefix + "##" in text):
                 return prefix + short
     return "GLINT_" + short
+def c_constants(kind):
+    """GLINT_SHADER_LAMBERTIAN and so on for ShaderType, in the order of the header."""
+    text = re.sub(r"/\*.*?\*/", "", HEADER.read_text(), flags=re.S)
+    body = re.search(rf"typedef enum Glint{kind.__name__} \{{(.*?)\}}", text, flags=re.S)[1]
+    names = re.findall(r"\b(GLINT_\w+)\b(?!\()", body)
+    # Those of a list that a macro holds are called as here.
+    return names if len(names) == len(kind) else ["GLINT_" + member.name for member in kind]
 
 
 def layout_program():
@@ -67,9 +74,9 @@ def layout_program():
             size = f"sizeof((({name} *)0)->{field})"
             yield f'printf("{name}.{field} %zu %zu\\n", offsetof({name}, {field}), {size});'
     for kind in ENUMS:
-        for member in kind:
+        for member, constant in zip(kind, c_constants(kind)):
             text = f"{kind.__name__}.{member.name}"
-            yield f'printf("{text} %d\\n", (int){c_constant(kind, member)});'
+            yield f'printf("{text} %d\\n", (int){constant});'
     yield "return 0; }"
 
 
@@ -92,7 +99,7 @@ def call_program():
         if returned is None:
             yield f"{call};"
         else:
-            const = "const " if returned is ctypes.c_char_p else ""
+            const = "const " if c_name(returned).endswith("*") else ""
             yield f"{{ {const}{c_name(returned)} r = {call}; (void)r; }}"
     yield "}"
 

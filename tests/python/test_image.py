@@ -11,6 +11,9 @@ import glint
 from support import BALL, HAS_NUMPY, SCENES, TestCase, flat, needs_numpy
 
 
+SHOWS = [show for show in glint.Show if show != glint.Show.COUNT]
+
+
 def ball(**options):
     return glint.Scene.from_string(BALL, name="ball.xml", **options)
 
@@ -154,6 +157,21 @@ class Cameras(TestCase):
         a, b = (9 + 0.5) / 16, 1 - (4 + 0.5) / 12
         self.assertAlmostEqual(scene.trace(*scene.camera.ray(a, b)).t, depth[4, 9], 5)
         self.assertEqual(glint.Camera().ray(0.5, 0.5)[1], (0, 0, -1))
+
+
+class Shows(TestCase):
+    def test_each(self):
+        scene = ball()
+        pictures = {bytes(scene.render(show=show.name.lower()).pixels) for show in SHOWS}
+        self.assertEqual(len(pictures), len(SHOWS))
+        image = scene.render(show="normal")
+        self.assertIsNone(image.recipe)
+        image.save(self.folder / "a.png")
+        scene.render_to(self.folder / "b.png", show="normal")
+        data = (self.folder / "a.png").read_bytes()
+        self.assertEqual(data, (self.folder / "b.png").read_bytes())
+        with self.assertRaisesRegex(ValueError, "did you mean 'normal'"):
+            scene.render(show="normals")
 
 
 class Recipes(TestCase):

@@ -141,6 +141,17 @@ class Origins(TestCase):
             scene.source("surfce", 1)
 
 
+    def test_checks(self):
+        inside = BALL.replace("<position>4 5 6<", "<position>0.1 0 0<")
+        scene = glint.Scene.from_string(inside, keep_sources=True)
+        self.assertEqual(scene.diagnostics, ())
+        (found, *_) = scene.check()
+        self.assertEqual((found.severity, found.line), (glint.Severity.WARNING, 8))
+        self.assertEqual(found.rule, "light-inside-solid")
+        self.assertIn("light-inside-solid", str(found))
+        self.assertEqual(glint.Scene.from_string(BALL).check(), ())
+
+
 class Life(TestCase):
     def test_closed_scenes_refuse(self):
         scene = glint.Scene.from_string(BALL)
