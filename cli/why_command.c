@@ -106,7 +106,6 @@ static const CliOption option_table[] = {
         set_dialect},
     {0, "format", "text|json|obj|html", CLI_FORM_REQUIRED, answer,
         "obj: for a viewer; html: a page to click in", set_format},
-        "obj: lines for viewers; html: a page", set_format},
     {'o', "output", "FILE", CLI_FORM_REQUIRED, answer, "write to FILE", set_output},
     {0, "region", "X,Y,W,H", CLI_FORM_REQUIRED, answer, "html: these pixels only (default: all)",
         set_region},

@@ -40,7 +40,6 @@ class Diagnostic:
     """At least 1."""
     rule: str | None
     """The name of the rule, such as "light-inside-solid"."""
-    """The name of the rule of glint check that found it; None for none."""
     hint: str | None
     """How to mend it; None where there is nothing to say."""
     text: str
