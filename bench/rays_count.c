@@ -6,8 +6,6 @@
 
 extern const GiKernel gi_kernel_counting;
 
-GiCounts gi_counts;
-
 RaysCounts rays_count(GiWorld *world, GlintTracer *tracer, const RaySet *set) {
     const GiKernel *kernel = world->kernel;
     gi_counts = (GiCounts){0, 0, 0};

@@ -31,8 +31,8 @@ GlintTracer *glint_tracer_create(const GiWorld *world) {
     GiTileScratch *scratch = gi_tile_scratch_create(world, &tracer->target);
     if (scratch == NULL) message_fail("not enough memory");
     scratch->bundle.stop = NULL;
-    tracer->stage =
-        (GiStage){world, &tracer->control, scratch, &tracer->counts, &tracer->target, 0, 0, 0};
+    tracer->stage = (GiStage){
+        world, &tracer->control, scratch, &tracer->counts, &tracer->target, NULL, 0, 0, 0};
     return tracer;
 }
 

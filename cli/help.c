@@ -68,7 +68,8 @@ static void print_options(const CliVerb *verb) {
 }
 
 static void print_screen(const CliVerb *verb) {
-    printf("usage: glint %s [OPTIONS] %s\n\n%s\n", verb->name, verb->operands, verb->about);
+    const char *blank = verb->operands[0] != '\0' ? " " : "";
+    printf("usage: glint %s [OPTIONS]%s%s\n\n%s\n", verb->name, blank, verb->operands, verb->about);
     print_options(verb);
     putchar('\n');
     if (has_option(verb, "dialect")) {

@@ -105,7 +105,7 @@ static CliStatus add_folder(CliJobs *jobs, const char *path) {
 }
 
 /* One scene and -o FILE: that file. Otherwise FILE must be a folder. */
-static CliStatus name_pictures(CliJobs *jobs, const char *output) {
+static CliStatus name_pictures(CliJobs *jobs, const char *output, const char *ending) {
     bool into_folder = output != NULL && is_folder(output);
     if (output != NULL && !into_folder) {
         if (has_ending(output, "/")) return cli_message_usage("there is no folder '%s'", output);
@@ -133,7 +133,7 @@ static CliStatus name_pictures(CliJobs *jobs, const char *output) {
         } else {
             const char *name = cli_job_name(job);
             job->picture =
-                into_folder ? join(output, cli_path_base(name), ".png") : join(NULL, name, ".png");
+                into_folder ? join(output, cli_path_base(name), ending) : join(NULL, name, ending);
         }
         if (job->picture == NULL) return out_of_memory();
     }
@@ -187,10 +187,11 @@ CliStatus cli_jobs_init_plain(CliJobs *jobs, const CliOperands *scenes) {
     return status;
 }
 
-CliStatus cli_jobs_init(CliJobs *jobs, const CliOperands *scenes, const char *output) {
+CliStatus cli_jobs_init(
+    CliJobs *jobs, const CliOperands *scenes, const char *output, const char *ending) {
     CliStatus status = cli_jobs_init_plain(jobs, scenes);
     if (status < CLI_USAGE && jobs->count > 0) {
-        status = cli_status_worse(status, name_pictures(jobs, output));
+        status = cli_status_worse(status, name_pictures(jobs, output, ending));
     }
     if (status < CLI_USAGE && jobs->count > 1) {
         status = cli_status_worse(status, check_collisions(jobs));

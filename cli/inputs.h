@@ -14,9 +14,11 @@ typedef struct CliJobs {
     int count, capacity;
 } CliJobs;
 
-/* Turns the operands into jobs, folders spread out; output is the value of --output, or null. Says
+/* Turns the operands into jobs, folders spread out; output is the value of --output, or null;
+ * ending, such as ".png", is what a picture that it does not name has behind the scene's name. Says
  * what is wrong; with CLI_INPUT the jobs that are right can still be done. */
-CliStatus cli_jobs_init(CliJobs *jobs, const CliOperands *scenes, const char *output);
+CliStatus cli_jobs_init(
+    CliJobs *jobs, const CliOperands *scenes, const char *output, const char *ending);
 
 /* The same of what draws no picture: the jobs have none. */
 CliStatus cli_jobs_init_plain(CliJobs *jobs, const CliOperands *scenes);

@@ -13,6 +13,7 @@
 #define BOLD  "\033[1m"
 #define RED   "\033[1;31m"
 #define AMBER "\033[1;33m"
+#define CYAN  "\033[1;36m"
 #define GREEN "\033[1;32m"
 #define PLAIN "\033[0m"
 
@@ -20,16 +21,20 @@ static const char *named_verb = "";
 
 void cli_message_set_verb(const char *name) { named_verb = name != NULL ? name : ""; }
 
-bool cli_message_on_terminal(void) {
+static bool is_terminal(int fd) {
     const char *terminal = getenv("TERM");
-    return isatty(STDERR_FILENO) && terminal != NULL && strcmp(terminal, "dumb") != 0;
+    return isatty(fd) && terminal != NULL && strcmp(terminal, "dumb") != 0;
 }
 
+bool cli_message_on_terminal(void) { return is_terminal(STDERR_FILENO); }
+
 /* https://no-color.org: set and not empty. */
-static bool colours_wanted(void) {
+static bool takes_colours(int fd) {
     const char *no_color = getenv("NO_COLOR");
-    return cli_message_on_terminal() && (no_color == NULL || no_color[0] == '\0');
+    return is_terminal(fd) && (no_color == NULL || no_color[0] == '\0');
 }
+
+bool cli_message_output_in_colour(void) { return takes_colours(STDOUT_FILENO); }
 
 CLI_PRINTF(1, 0) static void say(const char *format, va_list arguments) {
     fputs("glint: ", stderr);
@@ -59,10 +64,15 @@ static void put_coloured(const char *colour, const char *text, size_t size) {
     fputs(PLAIN, stderr);
 }
 
-/* "path:line:column: error: message": the place bold, the severity red or amber. */
+static const struct {
+    const char *word, *colour;
+} severities[] = {[GLINT_SEVERITY_ERROR] = {"error:", RED},
+    [GLINT_SEVERITY_WARNING] = {"warning:", AMBER},
+    [GLINT_SEVERITY_NOTE] = {"note:", CYAN}};
+
+/* "path:line:column: error: message": the place bold, the severity in its colour. */
 static void put_heading(const GlintDiagnostic *diagnostic, const char *line, size_t size) {
-    bool error = diagnostic->severity == GLINT_SEVERITY_ERROR;
-    const char *word = error ? "error:" : "warning:";
+    const char *word = severities[diagnostic->severity].word;
     size_t place = strlen(diagnostic->path), word_size = strlen(word);
     /* The path may itself contain the word, so the search begins behind it. */
     while (place + word_size <= size && strncmp(line + place, word, word_size) != 0) place++;
@@ -71,7 +81,7 @@ static void put_heading(const GlintDiagnostic *diagnostic, const char *line, siz
         return;
     }
     put_coloured(BOLD, line, place);
-    put_coloured(error ? RED : AMBER, line + place, word_size);
+    put_coloured(severities[diagnostic->severity].colour, line + place, word_size);
     fwrite(line + place + word_size, 1, size - place - word_size, stderr);
 }
 
@@ -80,10 +90,10 @@ static void put_in_colour(const GlintDiagnostic *diagnostic, const char *text) {
         size_t size = strcspn(text, "\n");
         if (row == 0) {
             put_heading(diagnostic, text, size);
-        } else if (row == 1) {
-            fwrite(text, 1, size, stderr);
-        } else {
+        } else if (row == 2) { /* the caret, behind the excerpt */
             put_coloured(GREEN, text, size);
+        } else {
+            fwrite(text, 1, size, stderr);
         }
         fputc('\n', stderr);
         text += size + (text[size] == '\n');
@@ -106,13 +116,30 @@ void cli_message_diagnostic(const GlintDiagnostic *diagnostic) {
         return;
     }
     glint_diagnostic_format(diagnostic, text, size);
-    if (colours_wanted()) {
+    if (takes_colours(STDERR_FILENO)) {
         disarm(text);
         put_in_colour(diagnostic, text);
     } else {
         fputs(text, stderr);
     }
     free(text);
+}
+
+void cli_message_finding(void *user, const GlintDiagnostic *diagnostic) {
+    CliFindings *findings = user;
+    findings->error_count++;
+    cli_message_diagnostic(diagnostic);
+}
+
+CliStatus cli_message_failure(
+    const char *name, const CliFindings *findings, const GlintError *error) {
+    int count = findings->error_count;
+    if (count > 0) {
+        fprintf(stderr, "%s: %d %s\n", name, count, count == 1 ? "error" : "errors");
+    } else {
+        cli_message_error("%s: %s", name, error->message);
+    }
+    return error->status == GLINT_ERROR_SCENE ? CLI_INPUT : CLI_MACHINE;
 }
 
 CliStatus cli_message_flush_output(void) {

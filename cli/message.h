@@ -16,6 +16,9 @@
 /* Whether standard error is a terminal that understands control sequences. */
 bool cli_message_on_terminal(void);
 
+/* Whether what goes to standard output may be coloured. */
+bool cli_message_output_in_colour(void);
+
 /* "glint: message" */
 CLI_PRINTF(1, 2) void cli_message_error(const char *format, ...);
 
@@ -27,6 +30,19 @@ CLI_PRINTF(1, 2) CliStatus cli_message_usage(const char *format, ...);
 
 /* A finding in a scene, in colour on a terminal unless NO_COLOR is set. */
 void cli_message_diagnostic(const GlintDiagnostic *diagnostic);
+
+/* The findings of one file. */
+typedef struct CliFindings {
+    int error_count;
+} CliFindings;
+
+/* Shows and counts a finding; a GlintDiagnosticFn, whose user is a CliFindings. */
+void cli_message_finding(void *user, const GlintDiagnostic *diagnostic);
+
+/* Ends a file that could not be used, by the number of its findings or, when it has none, by what
+ * *error says. Returns what that means to the shell. */
+CliStatus cli_message_failure(
+    const char *name, const CliFindings *findings, const GlintError *error);
 
 /* Writes out what standard output still holds. A reader that has gone away is no mistake; a full
  * disk is one, and is reported: CLI_MACHINE. */

@@ -7,6 +7,7 @@
 #include "message.h"
 #include "scene_file.h"
 #include "stats.h"
+#include "value.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -22,6 +23,7 @@ typedef struct Drawing {
     float *pixels;
     CliLayers layers;
     GlintRenderDesc area;
+    double shown_range[2];
     CliStats stats;
 } Drawing;
 
@@ -97,7 +99,30 @@ static CliStatus choose_area(Drawing *drawing) {
     drawing->area.crop_width = stats->crop_width;
     drawing->area.crop_height = stats->crop_height;
     drawing->area.monitor = &drawing->file.monitor;
+    drawing->area.show = options->show;
+    drawing->area.shown_range = drawing->shown_range;
     return CLI_OK;
+}
+
+/* The light to show alone: by its name, else by its number. */
+static CliStatus choose_light(Drawing *drawing) {
+    const char *wanted = drawing->options->light, *text = wanted;
+    GlintSceneInfo info;
+    glint_scene_info(drawing->file.scene, &info);
+    if (wanted == NULL) return CLI_OK;
+    int count = (int)info.light_count;
+    for (int i = 1; i <= count; i++) {
+        GlintSource source;
+        bool known =
+            glint_scene_source(drawing->file.scene, GLINT_OBJECT_LIGHT, (uint32_t)i, &source);
+        if (known && strcmp(source.name, wanted) == 0) drawing->area.light = i;
+    }
+    bool found = drawing->area.light > 0 ||
+                 (cli_value_digits(&text, 1, count, &drawing->area.light) && *text == '\0');
+    if (found) return CLI_OK;
+    cli_progress_clear(&drawing->file.progress);
+    return cli_message_usage("no light of '%s' is named '%s', and it has %d, from 1",
+        cli_job_name(drawing->file.job), wanted, count);
 }
 
 /* Linux grants more memory than there is and kills the program later, so what cannot fit is
@@ -164,8 +189,11 @@ static GlintStatus draw_and_save(Drawing *drawing) {
     CliSceneFile *file = &drawing->file;
     GlintRecipe *recipe = NULL, own;
     GlintRecipeFile *files = NULL;
-    GlintStatus status = glint_scene_recipe(
-        file->scene, &drawing->area, drawing->options->embed, &recipe, &file->error);
+    GlintStatus status = GLINT_OK;
+    if (drawing->options->show == GLINT_SHOW_PICTURE) {
+        status = glint_scene_recipe(
+            file->scene, &drawing->area, drawing->options->embed, &recipe, &file->error);
+    }
     if (status != GLINT_OK) return status;
     const char *bad = drawing->options->embed ? cli_unpack_bad_name(recipe) : NULL;
     if (bad != NULL) {
@@ -179,7 +207,7 @@ static GlintStatus draw_and_save(Drawing *drawing) {
     save.thread_count = drawing->options->thread_count;
     save.monitor = &file->monitor;
     save.recipe = recipe;
-    if (file->recipe != NULL) {
+    if (file->recipe != NULL && recipe != NULL) {
         /* The scene inside was unpacked to a place that is soon gone. */
         own = *recipe;
         files = malloc((size_t)own.file_count * sizeof *files);
@@ -205,10 +233,11 @@ static CliStatus draw(Drawing *drawing) {
     desc.dialect = drawing->options->dialect;
     desc.thread_count = drawing->options->thread_count;
     desc.isa = drawing->options->isa;
-    desc.keep_sources = drawing->options->embed;
+    desc.keep_sources = drawing->options->embed || drawing->options->light != NULL;
     refused = cli_scene_file_load(&drawing->file, &desc);
     if (refused != CLI_OK) return refused;
     refused = choose_area(drawing);
+    if (refused == CLI_OK) refused = choose_light(drawing);
     if (refused != CLI_OK) return refused;
     refused = cli_scene_file_commit(&drawing->file);
     if (refused != CLI_OK) return refused;
@@ -222,6 +251,19 @@ static CliStatus draw(Drawing *drawing) {
 }
 
 /* ---------------------------------------------------------------- all scenes */
+
+/* What the shades of a shown value mean. */
+static void tell_range(const Drawing *drawing) {
+    const char *name = cli_job_name(drawing->file.job);
+    const double *range = drawing->shown_range;
+    if (drawing->options->show == GLINT_SHOW_DEPTH) {
+        fprintf(
+            stderr, "%s: a distance of %.4g is white, %.4g is black\n", name, range[0], range[1]);
+    } else if (drawing->options->show == GLINT_SHOW_COST) {
+        fprintf(stderr, "%s: %.4g nodes, leaves and exact tests of a pixel are white\n", name,
+            range[1]);
+    }
+}
 
 static CliStatus announce(Drawing *drawing) {
     CliStats *stats = &drawing->stats;
@@ -238,6 +280,7 @@ static CliStatus announce(Drawing *drawing) {
         puts(drawing->file.job->picture);
     }
     CliStatus status = cli_message_flush_output();
+    if (!drawing->options->quiet) tell_range(drawing);
     if (format == CLI_STATS_TEXT) cli_stats_print_text(stats);
     return status;
 }
@@ -251,7 +294,15 @@ static CliStatus run(void *values, const CliOperands *operands) {
     const CliRenderOptions *options = values;
     if (options->list_isa) return list_isa();
     CliJobs jobs;
-    CliStatus status = cli_jobs_init(&jobs, operands, options->output);
+    bool shows = options->show != GLINT_SHOW_PICTURE;
+    if (options->layers != 0 && (shows || options->light != NULL)) {
+        return cli_message_usage("--layers are of the whole picture, and --show shows none");
+    }
+    if (options->embed && shows) {
+        return cli_message_usage(
+            "--embed is for a picture that can be drawn again, not for --show");
+    }
+    CliStatus status = cli_jobs_init(&jobs, operands, options->output, options->picture_ending);
     bool progress = !options->quiet && cli_message_on_terminal();
     if (status < CLI_USAGE) {
         for (int i = 0; i < jobs.count && !cli_interrupt_seen(); i++) {
@@ -270,14 +321,17 @@ static CliStatus run(void *values, const CliOperands *operands) {
     return status;
 }
 
-static CliRenderOptions defaults = {.dialect = GLINT_DIALECT_AUTO};
+static CliRenderOptions defaults = {.dialect = GLINT_DIALECT_AUTO, .picture_ending = ".png"};
 
 const CliVerb cli_verb_render = {.name = "render",
     .operands = "SCENE...",
     .summary = "draw scenes",
     .about = "Draws scenes. A SCENE is an XML file, a folder (all *.xml in it), or - for\n"
              "standard input. The picture of a.xml is a.xml.png beside it.",
-    .notes = NULL,
+    .notes = "--show takes normal, depth, uv (texture coordinates), id (a colour a surface),\n"
+             "cost (what the rays of a pixel take), shadow (the part of the lights that is\n"
+             "seen) or light:NAME (one light alone, by its name or number). The picture of\n"
+             "a.xml is then a.xml.normal.png and so on.",
     .example_text = "draw one scene larger than it asks for, on four threads",
     .example = "glint --size 1920x1080 -t 4 -o big.png scenes/solids.xml",
     .options = cli_render_option_table,

@@ -67,6 +67,36 @@ static CliStatus set_layers(void *values, const char *value) {
     }
 }
 
+/* In the order of GlintShow. */
+static const struct {
+    const char *name, *ending;
+} shows[GLINT_SHOW_COUNT] = {{"picture", ".png"}, {"normal", ".normal.png"},
+    {"depth", ".depth.png"}, {"uv", ".uv.png"}, {"id", ".id.png"}, {"cost", ".cost.png"},
+    {"shadow", ".shadow.png"}};
+
+static const char *show_name_at(int index) {
+    if (index < GLINT_SHOW_COUNT) return shows[index].name;
+    return index == GLINT_SHOW_COUNT ? "light:NAME" : NULL;
+}
+
+static CliStatus set_show(void *values, const char *value) {
+    static const char light[] = "light:";
+    CliRenderOptions *options = values;
+    options->show = GLINT_SHOW_PICTURE;
+    options->light = NULL;
+    if (strncmp(value, light, strlen(light)) == 0 && value[strlen(light)] != '\0') {
+        options->light = value + strlen(light);
+        options->picture_ending = ".light.png";
+        return CLI_OK;
+    }
+    int index = 0;
+    CliStatus status = cli_value_name("show", value, show_name_at, &index);
+    if (status != CLI_OK) return status;
+    options->show = (GlintShow)index;
+    options->picture_ending = shows[index].ending;
+    return CLI_OK;
+}
+
 static CliStatus set_embed(void *values, const char *value) {
     CliRenderOptions *options = values;
     (void)value;
@@ -130,6 +160,8 @@ const CliOption cli_render_option_table[CLI_RENDER_OPTION_COUNT] = {
         "draw N samples a pixel, whatever the scene says", set_samples},
     {0, "layers", "A,B", CLI_FORM_REQUIRED, picture,
         "add depth, normal, albedo, surface, lights, or all", set_layers},
+    {0, "show", "WHAT", CLI_FORM_REQUIRED, picture,
+        "not the picture, but what explains it (see below)", set_show},
     {0, "embed", NULL, CLI_FORM_NONE, picture, "put the scene and its files into the PNG",
         set_embed},
     {0, "dialect", "NAME", CLI_FORM_REQUIRED, picture, "follow the rules of a year (see below)",

@@ -26,10 +26,13 @@ typedef struct CliRenderOptions {
     int crop_x, crop_y, crop_width, crop_height; /* crop_width 0: the whole picture */
     int samples;                                 /* 0: the scene's */
     unsigned layers;                             /* a set of CliLayerKind */
+    GlintShow show;
+    const char *light;          /* name or number of the one to show alone; null: all */
+    const char *picture_ending; /* of a picture that is not named: ".png", ".normal.png" */
     CliStatsFormat stats;
     bool quiet, list_isa;
     bool embed; /* the scene and its files into the PNG */
 } CliRenderOptions;
 
-enum { CLI_RENDER_OPTION_COUNT = 12 };
+enum { CLI_RENDER_OPTION_COUNT = 13 };
 extern const CliOption cli_render_option_table[CLI_RENDER_OPTION_COUNT];

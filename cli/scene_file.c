@@ -24,11 +24,8 @@ static bool on_cancelled(void *user) {
 
 static void on_diagnostic(void *user, const GlintDiagnostic *diagnostic) {
     CliSceneFile *file = user;
-    if (diagnostic->severity == GLINT_SEVERITY_ERROR) {
-        file->error_count++;
-    } else {
-        file->warning_count++;
-    }
+    file->error_count += diagnostic->severity == GLINT_SEVERITY_ERROR;
+    file->warning_count += diagnostic->severity == GLINT_SEVERITY_WARNING;
     cli_progress_clear(&file->progress);
     if (file->diagnostic != NULL) {
         file->diagnostic(file->diagnostic_user, diagnostic);
@@ -60,7 +57,8 @@ static void report(CliSceneFile *file) {
             .column = error->column,
             .message =
                 error->message[0] != '\0' ? error->message : glint_status_text(error->status),
-            .caret_length = 1};
+            .caret_length = 1,
+            .rule = error->status == GLINT_ERROR_FILE ? "file" : "scene"};
         on_diagnostic(file, &diagnostic);
         return;
     }

@@ -1,9 +1,11 @@
-/* SPDX-License-Identifier: MIT */
+/* SPDX-License-Identifier: MIT
+ * zlib is asked for only when a page is made: what is linked would be loaded at every start. Where
+ * there is none, the bytes are stored as they are, in the same format (RFC 1950, RFC 1951). */
 #include "why_columns.h"
 
+#include <dlfcn.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
 bool cli_column_add(CliColumn *column, uint32_t value) {
     if (column->count == column->capacity) {
@@ -58,25 +60,80 @@ void cli_base64_write(FILE *out, const uint8_t *bytes, size_t size) {
     }
 }
 
+/* ---------------------------------------------------------------- compression */
+
+typedef struct Bytes {
+    uint8_t *data; /* null: there was no memory */
+    size_t size;
+} Bytes;
+
+enum { STORED_LIMIT = 65535 }; /* bytes of a stored block */
+
+static Bytes stored(const uint8_t *plain, size_t size) {
+    size_t blocks = size / STORED_LIMIT + 1;
+    Bytes packed = {malloc(2 + 5 * blocks + size + 4), 0};
+    if (packed.data == NULL) return packed;
+    uint8_t *to = packed.data;
+    uint32_t a = 1, b = 0; /* Adler's sum */
+    *to++ = 0x78, *to++ = 0x01;
+    for (size_t block = 0; block < blocks; block++) {
+        size_t left = size - block * STORED_LIMIT;
+        size_t length = left < STORED_LIMIT ? left : STORED_LIMIT;
+        *to++ = block + 1 == blocks;
+        *to++ = length & 255, *to++ = (uint8_t)(length >> 8);
+        *to++ = ~length & 255, *to++ = (uint8_t)(~length >> 8);
+        memcpy(to, plain + block * STORED_LIMIT, length);
+        to += length;
+    }
+    for (size_t i = 0; i < size; i++) {
+        a = (a + plain[i]) % 65521;
+        b = (b + a) % 65521;
+    }
+    *to++ = (uint8_t)(b >> 8), *to++ = b & 255, *to++ = (uint8_t)(a >> 8), *to++ = a & 255;
+    packed.size = (size_t)(to - packed.data);
+    return packed;
+}
+
+/* By zlib's compress2. False: there is no zlib, or no memory. */
+static bool deflated(const uint8_t *plain, size_t size, Bytes *packed) {
+    int (*compress)(uint8_t *, unsigned long *, const uint8_t *, unsigned long, int);
+    enum { LEVEL = 6 };
+    void *library = dlopen("libz.so.1", RTLD_NOW | RTLD_LOCAL);
+    void *symbol = library != NULL ? dlsym(library, "compress2") : NULL;
+    unsigned long room = (unsigned long)(size + size / 1000 + 64); /* more than compressBound */
+    *packed = (Bytes){symbol != NULL ? malloc(room) : NULL, 0};
+    bool good = packed->data != NULL;
+    if (good) {
+        memcpy(&compress, &symbol, sizeof compress); /* C knows no cast from data to function */
+        good = compress(packed->data, &room, plain, (unsigned long)size, LEVEL) == 0;
+        packed->size = room;
+    }
+    if (!good) free(packed->data);
+    if (library != NULL) dlclose(library);
+    return good;
+}
+
+/* ---------------------------------------------------------------- the table */
+
 bool cli_columns_write(FILE *out, const CliColumn *columns, int count) {
     static const char *const types[] = {"u8", "u16", "u32", "f32"};
     size_t size = cli_columns_size(columns, count);
-    uLongf packed_size = compressBound((uLong)size);
-    uint8_t *plain = malloc(size + 1), *packed = malloc(packed_size), *end = plain;
-    bool good = plain != NULL && packed != NULL;
-    for (int i = 0; i < count && good; i++) end = put_planes(end, &columns[i]);
-    good = good && compress2(packed, &packed_size, plain, (uLong)size, 6) == Z_OK;
+    uint8_t *plain = malloc(size + 1), *end = plain;
+    if (plain == NULL) return false;
+    for (int i = 0; i < count; i++) end = put_planes(end, &columns[i]);
+    Bytes packed;
+    if (!deflated(plain, size, &packed)) packed = stored(plain, size);
     fputs("\"columns\":[", out);
     for (int i = 0; i < count; i++) {
         fprintf(out, "%s[\"%s\",\"%s\",%zu]", i == 0 ? "" : ",", columns[i].name,
             types[columns[i].type], columns[i].count);
     }
     fputs("],\"data\":\"", out);
-    if (good) cli_base64_write(out, packed, packed_size);
+    cli_base64_write(out, packed.data, packed.size);
     fputc('"', out);
     free(plain);
-    free(packed);
-    return good;
+    free(packed.data);
+    return packed.data != NULL;
 }
 
 void cli_columns_reset(CliColumn *columns, int count) {

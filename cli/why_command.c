@@ -105,7 +105,7 @@ static const CliOption option_table[] = {
     {0, "dialect", "NAME", CLI_FORM_REQUIRED, pixel, "follow the rules of a year (see below)",
         set_dialect},
     {0, "format", "text|json|obj|html", CLI_FORM_REQUIRED, answer,
-        "obj: lines for a viewer; html: a page to click in", set_format},
+        "obj: lines for viewers; html: a page", set_format},
     {'o', "output", "FILE", CLI_FORM_REQUIRED, answer, "write to FILE", set_output},
     {0, "region", "X,Y,W,H", CLI_FORM_REQUIRED, answer, "html: these pixels only (default: all)",
         set_region},

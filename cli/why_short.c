@@ -82,7 +82,7 @@ void cli_why_print_light_hints(const CliWhy *why, const GlintExplainSample *samp
             "hint: the normal points away from the viewer and from the "
             "light: is the surface turned inside out?");
     }
-    double most = fmax(light->term[0], fmax(light->term[1], light->term[2]));
+    double most = fmax(light->term[0], fmax(light->term[1], light->term[2])) * why->pixel.exposure;
     if (light->fate == GLINT_LIGHT_ARRIVES && light->falloff < 0.01 && most < 1e-3) {
         cli_why_line(why, indent,
             "hint: in this dialect light falls off with 1/r^2, here to "
@@ -168,7 +168,7 @@ static void say_surface(const CliWhy *why, const GlintExplainSample *sample) {
     size_t others = add_others(sample, sum);
     if (others > 0) {
         cli_why_line(why, 2, "%zu further ray%s bring%s %s", others, others == 1 ? "" : "s",
-            others == 1 ? "s" : "", cli_why_vec(sum));
+            others == 1 ? "s" : "", cli_why_is(sum, 0) ? "nothing" : cli_why_vec(sum));
     }
     say_dropped(why, sample);
 }

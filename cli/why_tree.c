@@ -9,6 +9,8 @@
 /* ---------------------------------------------------------------- lines */
 
 void cli_why_line(const CliWhy *why, int indent, const char *format, ...) {
+    enum { MOST = 60 }; /* a path may have thousands of rays */
+    if (indent > MOST) indent = MOST;
     va_list arguments;
     fprintf(why->out, "%*s", indent, "");
     va_start(arguments, format);
@@ -272,24 +274,32 @@ static const char *reason(GlintBranchFate fate) {
     case GLINT_BRANCH_TOO_LIGHT: return "its weight is below the limit of this dialect";
     case GLINT_BRANCH_TOO_DEEP: return "it would lie behind the deepest level";
     case GLINT_BRANCH_NOT_CHOSEN: return "the path was drawn to go another way";
-    case GLINT_BRANCH_ENDED: return "the path was ended by chance (Russian roulette)";
+    case GLINT_BRANCH_ENDED: return "the path ends here by chance (Russian roulette)";
     case GLINT_BRANCH_NO_TREE: return "the integrator follows no mirrored or refracted rays";
     case GLINT_BRANCH_FOLLOWED: break;
     }
     return "";
 }
 
-static void print_ray(
-    const CliWhy *why, const GlintExplainSample *sample, uint32_t index, int indent);
+static void print_ray(const CliWhy *why, const GlintExplainSample *sample, uint32_t index,
+    const GlintExplainBranch *branch, int indent);
 
 static void print_branch(const CliWhy *why, const GlintExplainSample *sample,
     const GlintExplainBranch *branch, int indent) {
     if (branch->fate == GLINT_BRANCH_FOLLOWED) {
-        print_ray(why, sample, branch->child, indent);
+        print_ray(why, sample, branch->child, branch, indent);
         return;
     }
-    /* A path that could have gone elsewhere is no news. */
-    if (branch->fate == GLINT_BRANCH_NOT_CHOSEN && branch->layer == GLINT_NONE) return;
+    /* A path that could have gone elsewhere is no news, nor is a look for lights that led nowhere.
+     */
+    if (branch->layer == GLINT_NONE && branch->fate != GLINT_BRANCH_ENDED) return;
+    if (branch->layer == GLINT_NONE) {
+        cli_why_line(why, indent,
+            "the path ends here by chance: it would have gone on with %.6g "
+            "(Russian roulette)",
+            branch->survival);
+        return;
+    }
     cli_why_line(why, indent, "%s ray (part %s, weight %.6g): not followed, %s",
         cli_why_ray_kind(branch->kind), cli_why_part(branch->factor), branch->weight,
         reason(branch->fate));
@@ -308,25 +318,30 @@ static void print_own(
     }
 }
 
-static void print_heading(const CliWhy *why, const GlintExplainRay *ray, int indent) {
-    if (ray->kind == GLINT_RAY_CAMERA) {
+static void print_heading(
+    const CliWhy *why, const GlintExplainRay *ray, const GlintExplainBranch *branch, int indent) {
+    if (branch == NULL) {
         cli_why_line(why, indent, "camera ray from %s along %s", cli_why_vec(ray->origin),
             cli_why_vec(ray->direction));
         return;
     }
-    char drawn[60] = "";
+    char drawn[60] = "", chosen[60] = "", kept[60] = "";
     if (ray->density > 0) snprintf(drawn, sizeof drawn, ", drawn with density %.6g", ray->density);
+    if (branch->chance < 1) snprintf(chosen, sizeof chosen, ", chosen by %.6g", branch->chance);
+    if (branch->survival < 1) snprintf(kept, sizeof kept, ", kept by %.6g", branch->survival);
     const char *kind = ray->kind == GLINT_RAY_PROBE ? "probe (looks for large lights only)"
                                                     : cli_why_ray_kind(ray->kind);
-    cli_why_line(why, indent, "%s ray, level %u, along %s, part %s%s", kind, (unsigned)ray->level,
-        cli_why_vec(ray->direction), cli_why_part(ray->factor), drawn);
+    cli_why_line(why, indent, "%s ray, level %u, along %s, part %s%s%s%s", kind,
+        (unsigned)ray->level, cli_why_vec(ray->direction), cli_why_part(ray->factor), drawn, chosen,
+        kept);
 }
 
-static void print_ray(
-    const CliWhy *why, const GlintExplainSample *sample, uint32_t index, int indent) {
+/* branch: that it goes along; null: the camera's. */
+static void print_ray(const CliWhy *why, const GlintExplainSample *sample, uint32_t index,
+    const GlintExplainBranch *branch, int indent) {
     const GlintExplainRay *ray = &sample->rays[index];
     char name[CLI_WHY_NAME_SIZE];
-    print_heading(why, ray, indent);
+    print_heading(why, ray, branch, indent);
     indent += 2;
     if (ray->end == GLINT_RAY_END_NOTHING) {
         cli_why_line(why, indent, "meets nothing");
@@ -356,5 +371,5 @@ static void print_ray(
 }
 
 void cli_why_print_tree(const CliWhy *why, const GlintExplainSample *sample) {
-    print_ray(why, sample, 0, 0);
+    print_ray(why, sample, 0, NULL, 0);
 }

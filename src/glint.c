@@ -5,11 +5,13 @@
 #include "glint/glint.h"
 
 #include "base/assert.h"
+#include "check/check.h"
 #include "base/cookie.h"
 #include "base/error.h"
 #include "port/file.h"
 #include "glint_scene.h"
 #include "image/image.h"
+#include "render/show.h"
 #include "port/machine.h"
 #include "reader/reader.h"
 
@@ -227,6 +229,22 @@ GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, G
     return GLINT_OK;
 }
 
+/* A check draws pictures so small that few workers are of use. */
+GlintStatus glint_scene_check(GlintScene *scene, const GlintMonitor *monitor, GlintError *error) {
+    enum { JOBS = 16 };
+    if (scene == NULL) return ARGUMENT(error, "scene is null");
+    if (!scene->committed) return ARGUMENT(error, "the scene is not committed");
+    GlintStatus status = need_workers(scene, JOBS, error);
+    if (status != GLINT_OK) return status;
+    const GiCheckInput input = {.world = &scene->world,
+        .pool = scene->pool,
+        .sources = &scene->sources,
+        .monitor = monitor,
+        .diagnostic = scene->diagnostic,
+        .diagnostic_user = scene->diagnostic_user};
+    return gi_check(&input, error);
+}
+
 bool glint_scene_file(const GlintScene *scene, int index, GlintSceneFile *file) {
     GI_ASSERT(scene != NULL && file != NULL && index >= 0);
     const GiScene *model = &scene->model;
@@ -304,6 +322,12 @@ GlintStatus gi_scene_plan_render(GlintScene *scene, const GlintRenderDesc *desc,
     if (desc->light < -1 || desc->light > (int)scene->model.lights.count) {
         return ARGUMENT(error, "there is no such light");
     }
+    if ((unsigned)desc->show >= GLINT_SHOW_COUNT) return ARGUMENT(error, "no such thing to show");
+    bool outputs = desc->depth != NULL || desc->normal != NULL || desc->albedo != NULL ||
+                   desc->surface != NULL || desc->light != 0;
+    if (desc->show != GLINT_SHOW_PICTURE && outputs) {
+        return ARGUMENT(error, "what is shown has no light and no outputs beside the pixels");
+    }
     GiCamera camera = scene->model.camera;
     if (desc->camera != NULL) {
         GlintStatus status = gi_glint_camera(desc->camera, &camera, error);
@@ -325,15 +349,35 @@ GlintStatus gi_scene_plan_render(GlintScene *scene, const GlintRenderDesc *desc,
     return need_workers(scene, across * down, error);
 }
 
+static void end_render(GlintScene *scene, double start, const GiRenderCounts *counts) {
+    scene->stats.trace_seconds = gi_machine_seconds() - start;
+    scene->stats.camera_rays = counts->camera_rays;
+    scene->stats.shadow_rays = counts->shadow_rays;
+    scene->stats.other_rays = counts->other_rays;
+}
+
 static GlintStatus render(GlintScene *scene, const GiRenderArea *area, const GlintMonitor *monitor,
     const GiRenderTarget *target, GlintError *error) {
     double start = gi_machine_seconds();
     GiRenderCounts counts = {0};
     GlintStatus status = gi_render(&scene->world, scene->pool, area, monitor, target, &counts);
-    scene->stats.trace_seconds = gi_machine_seconds() - start;
-    scene->stats.camera_rays = counts.camera_rays;
-    scene->stats.shadow_rays = counts.shadow_rays;
-    scene->stats.other_rays = counts.other_rays;
+    end_render(scene, start, &counts);
+    return status == GLINT_OK ? status
+                              : gi_error_set(error, status, "%s", glint_status_text(status));
+}
+
+/* Something else than the picture. */
+static GlintStatus show(GlintScene *scene, const GiRenderArea *area, const GlintRenderDesc *desc,
+    const GiView *view, float *pixels, GlintError *error) {
+    double start = gi_machine_seconds();
+    GiRenderCounts counts;
+    int samples = desc->samples != 0 ? desc->samples : 1;
+    GiShow shown = {.what = desc->show, .samples = samples, .view = view, .color = pixels};
+    GlintStatus status = gi_show(&scene->world, scene->pool, area, desc->monitor, &shown, &counts);
+    end_render(scene, start, &counts);
+    bool has_range = desc->show == GLINT_SHOW_DEPTH || desc->show == GLINT_SHOW_COST;
+    if (desc->shown_range != NULL && has_range)
+        memcpy(desc->shown_range, shown.range, sizeof shown.range);
     return status == GLINT_OK ? status
                               : gi_error_set(error, status, "%s", glint_status_text(status));
 }
@@ -346,6 +390,9 @@ GlintStatus glint_render(
     GiView view;
     GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, &view, error);
     if (status != GLINT_OK) return status;
+    if (desc->show != GLINT_SHOW_PICTURE) {
+        return show(scene, &area, desc, &view, pixels, error);
+    }
     target.color = pixels;
     return render(scene, &area, desc->monitor, &target, error);
 }
@@ -416,7 +463,10 @@ GlintStatus glint_render_save(GlintScene *scene, const GlintRenderDesc *desc, co
     if (status == GLINT_OK) status = gi_image_check_desc(save, error);
     if (status == GLINT_OK) status = glint_image_check_path(path, error);
     if (status != GLINT_OK) return status;
-    if (!gi_image_is_png(path)) return save_afterwards(scene, &area, desc, path, save, error);
+    /* A recipe is that of a picture. */
+    if (!gi_image_is_png(path) || desc->show != GLINT_SHOW_PICTURE) {
+        return save_afterwards(scene, &area, desc, path, save, error);
+    }
     GlintRecipe *made = NULL;
     GlintSaveDesc own = *save;
     /* A recipe has no word for a camera that is not the scene's. */

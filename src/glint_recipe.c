@@ -152,6 +152,9 @@ GlintStatus glint_scene_recipe(const GlintScene *scene, const GlintRenderDesc *d
     if (desc->cookie != GI_COOKIE) {
         return ARGUMENT(error, "the desc was not made by glint_render_desc_default");
     }
+    if (desc->show != GLINT_SHOW_PICTURE) {
+        return ARGUMENT(error, "there is no recipe of what only explains a picture");
+    }
     if (desc->camera != NULL) {
         return ARGUMENT(error, "a recipe is of the scene's own camera");
     }

@@ -8,7 +8,8 @@ set -u
 cd "${1:-$(dirname "$0")/..}" || exit 3
 
 # Room: the rooms that it may see besides itself, base, math and the public header.
-all='sample light texture mesh render reader scene image accel kernel shape shade camera sched port'
+all='sample light texture mesh render reader format scene image accel kernel shape shade camera'
+all="$all sched port"
 plan="
 base:
 math:
@@ -26,9 +27,12 @@ kernel: accel shape port
 shade: scene shape light texture
 camera: scene
 reader: scene mesh shape light texture port
+format: reader scene mesh shape light texture port
 render: sample light texture shade camera kernel accel image sched scene shape port
-glint.c: $all glint_scene.h
+check: render reader accel camera kernel scene shape light mesh texture sched
+glint.c: $all check glint_scene.h
 glint_build.c: $all glint_scene.h
+glint_format.c: $all
 glint_explain.c: $all glint_scene.h
 glint_recipe.c: $all glint_scene.h
 glint_scene.h: $all

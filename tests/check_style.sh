@@ -18,8 +18,11 @@ rule() { # rule NAME FINDINGS: holds when there are none
     fi
 }
 
-c_files=$(find include src modules cli tests fuzz bench samples -name '*.[ch]' 2>/dev/null | sort)
-scripts="dev .ci/run $(find tests -name '*.sh' | sort)"
+rooms="include src modules cli tests fuzz bench samples docs"
+# shellcheck disable=SC2086 # a list
+c_files=$(find $rooms -name '*.[ch]' 2>/dev/null | sort)
+scripts="dev .ci/run $(find tests packaging -name '*.sh' | sort)"
+python_files=$(find python tests/python -name '*.py' | sort)
 
 # No file of ours has a blank in its name.
 # shellcheck disable=SC2046,SC2086 # the lists are lists
@@ -27,12 +30,13 @@ scripts="dev .ci/run $(find tests -name '*.sh' | sort)"
     rule "the first line names the licence" "$(for file in $c_files; do
         head -n 1 "$file" | grep -q 'SPDX-License-Identifier: MIT' || echo "$file"
     done
-    for file in $scripts; do
+    for file in $scripts $python_files; do
         head -n 2 "$file" | grep -q 'SPDX-License-Identifier: MIT' || echo "$file"
     done)"
     rule "no line over 100 columns" "$(awk 'length > 100 { print FILENAME ":" FNR }' \
-        $c_files $scripts)"
-    rule "no promises (TO""DO, FIX""ME)" "$(grep -nE 'TO''DO|FIX''ME' $c_files $scripts)"
+        $c_files $scripts $python_files)"
+    rule "no promises (TO""DO, FIX""ME)" "$(grep -nE 'TO''DO|FIX''ME' $c_files $scripts \
+        $python_files)"
     rule "no type ends in _t" "$(grep -nE '^(typedef .*|\} *)[A-Za-z0-9_]+_t;' $c_files)"
     rule "no file over 1000 lines" "$(for file in $c_files; do
         [ "$(wc -l <"$file")" -le 1000 ] || echo "$file"

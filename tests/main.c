@@ -55,9 +55,13 @@
     X(load) \
     X(life) \
     X(exr) \
+    X(check) \
+    X(show) \
     X(elements) \
     X(files) \
+    X(format) \
     X(triangle) \
+    X(upgrade) \
     X(watch) \
     X(watch_camera) \
     X(watch_screen)

@@ -186,12 +186,11 @@ static void on_pixel(void *user, const GlintExplainPixel *pixel) {
     audit->pixels++;
 }
 
-/* Explains every pixel of a scene. */
-static void audit_scene(GlintScene *scene, const char *name, int width, int height, Audit *audit) {
+/* Explains every pixel that desc asks for. */
+static void audit_scene(
+    GlintScene *scene, const char *name, const GlintRenderDesc *desc, Audit *audit) {
     if (scene == NULL) return;
-    GlintRenderDesc desc = glint_render_desc_default();
-    desc.width = width, desc.height = height;
-    Picture picture = picture_of_scene(scene, &desc);
+    Picture picture = picture_of_scene(scene, desc);
     audit->scene = scene;
     audit->picture = &picture;
     audit->name = name;
@@ -200,15 +199,24 @@ static void audit_scene(GlintScene *scene, const char *name, int width, int heig
     const GlintExplainSink sink = {on_sample, on_pixel, audit, 0};
     GlintError error = {.status = GLINT_OK};
     if (picture.pixels != NULL) {
-        CHECK_INT(glint_explain(scene, &desc, &sink, &error), GLINT_OK);
+        CHECK_INT(glint_explain(scene, desc, &sink, &error), GLINT_OK);
         CHECK_INT(audit->pixels, picture.width * picture.height);
     }
     picture_free(&picture);
-    glint_scene_destroy(scene);
+}
+
+static const char *golden_path(const char *name) {
+    static char path[4096];
+    snprintf(path, sizeof path, "%s/tests/golden/%s.xml", test_source_dir(), name);
+    return path;
 }
 
 static void audit_file(const char *path, int width, int height, Audit *audit) {
-    audit_scene(scene_from_file(path, NULL, 2), path, width, height, audit);
+    GlintScene *scene = scene_from_file(path, NULL, 2);
+    GlintRenderDesc desc = glint_render_desc_default();
+    desc.width = width, desc.height = height;
+    audit_scene(scene, path, &desc, audit);
+    glint_scene_destroy(scene);
 }
 
 static void adds_up(void) {
@@ -235,10 +243,8 @@ static void adds_up(void) {
     };
     Audit audit = {.scene = NULL};
     for (size_t i = 0; i < sizeof goldens / sizeof goldens[0]; i++) {
-        char path[4096];
-        snprintf(path, sizeof path, "%s/tests/golden/%s.xml", test_source_dir(), goldens[i]);
         bool slow = test_slowness() > 1;
-        audit_file(path, slow ? 20 : 0, slow ? 15 : 0, &audit);
+        audit_file(golden_path(goldens[i]), slow ? 20 : 0, slow ? 15 : 0, &audit);
     }
     /* Else the test would not have seen what it is about. */
     for (int i = 0; i <= GLINT_RAY_PROBE; i++) CHECK(audit.kinds[i] > 0);
@@ -258,4 +264,158 @@ static void gallery(void) {
     }
 }
 
-const GiTest tests_explain[] = {TEST(adds_up), TEST(gallery), TEST_END};
+/* What a desc can say beside the size. */
+static void descs(void) {
+    Audit audit = {.scene = NULL};
+    GlintScene *scene = scene_from_file(golden_path("light-2017b"), NULL, 1);
+    GlintSceneInfo info;
+    glint_scene_info(scene, &info);
+    GlintRenderDesc desc = glint_render_desc_default();
+    desc.width = 24, desc.height = 18;
+    for (desc.light = -1; desc.light <= (int)info.light_count; desc.light++) {
+        audit_scene(scene, "one light alone", &desc, &audit);
+    }
+    desc.light = 0;
+    desc.samples = 9;
+    desc.sampling = GLINT_SAMPLING_RANDOM;
+    audit_scene(scene, "random samples", &desc, &audit);
+    GlintCameraDesc camera;
+    CHECK(glint_scene_camera(scene, &camera));
+    camera.view_point[0] += 0.5;
+    desc.camera = &camera;
+    audit_scene(scene, "another camera", &desc, &audit);
+    glint_scene_destroy(scene);
+}
+
+typedef struct Colors {
+    int count, sample;
+    double color[16][3];
+    size_t additions[16];
+} Colors;
+
+static void keep_color(void *user, const GlintExplainSample *sample) {
+    Colors *colors = user;
+    colors->sample = sample->sample;
+    memcpy(colors->color[colors->count], sample->color, sizeof sample->color);
+    colors->additions[colors->count++] = sample->addition_count;
+}
+
+static void only_one_sample(void) {
+    GlintScene *scene = scene_from_file(golden_path("paths-glint"), NULL, 1);
+    GlintRenderDesc desc = glint_render_desc_default();
+    desc.samples = 4;
+    desc.crop_x = 20, desc.crop_y = 30, desc.crop_width = desc.crop_height = 1;
+    Colors all = {0};
+    GlintExplainSink sink = {.sample = keep_color, .user = &all};
+    CHECK_INT(glint_explain(scene, &desc, &sink, NULL), GLINT_OK);
+    CHECK_INT(all.count, 4);
+    for (int k = 0; k < 4; k++) {
+        Colors one = {0};
+        sink.user = &one;
+        sink.only_sample = k + 1;
+        CHECK_INT(glint_explain(scene, &desc, &sink, NULL), GLINT_OK);
+        CHECK(one.count == 1 && one.sample == k && one.additions[0] == all.additions[k]);
+        CHECK(memcmp(one.color[0], all.color[k], sizeof one.color[0]) == 0);
+    }
+    Colors none = {0};
+    sink.user = &none;
+    sink.only_sample = 5;
+    CHECK_INT(glint_explain(scene, &desc, &sink, NULL), GLINT_OK);
+    CHECK_INT(none.count, 0);
+    glint_scene_destroy(scene);
+}
+
+static bool always(void *user) {
+    (void)user;
+    return true;
+}
+
+static void arguments(void) {
+    GlintScene *scene = scene_from_text(small_scene, NULL, 1);
+    GlintRenderDesc desc = glint_render_desc_default();
+    GlintExplainSink sink = {NULL, NULL, NULL, 0};
+    GlintError error;
+    CHECK_INT(glint_explain(scene, &desc, NULL, &error), GLINT_ERROR_ARGUMENT);
+    CHECK_INT(glint_explain(scene, NULL, &sink, &error), GLINT_ERROR_ARGUMENT);
+    CHECK_INT(glint_explain(scene, &desc, &sink, &error), GLINT_OK);
+    const GlintMonitor monitor = {.cancelled = always};
+    desc.monitor = &monitor;
+    CHECK_INT(glint_explain(scene, &desc, &sink, &error), GLINT_CANCELLED);
+    desc.monitor = NULL;
+    desc.crop_x = 1 << 20;
+    CHECK_INT(glint_explain(scene, &desc, &sink, &error), GLINT_ERROR_ARGUMENT);
+    desc.crop_x = 0;
+    sink.only_sample = -1;
+    CHECK_INT(glint_explain(scene, &desc, &sink, &error), GLINT_ERROR_ARGUMENT);
+    glint_scene_destroy(scene);
+}
+
+/* What explanations refer to can be asked for. */
+static void shaders_and_lights(void) {
+    GlintScene *scene = scene_from_text("<scene dialect='2019'><image>4 4</image>"
+                                        "<camera type='PerspectiveCamera'/>"
+                                        "<shader name='a' type='Phong'><exponent>7</exponent>"
+                                        "<mirrorCoefficient>.1 .2 .3</mirrorCoefficient></shader>"
+                                        "<light><position>1 2 3</position></light>"
+                                        "<backColor>.1 .2 .3</backColor></scene>",
+        NULL, 1);
+    GlintShaderDesc shader;
+    GlintLightDesc light;
+    double color[3];
+    CHECK(glint_scene_shader(scene, (GlintShaderId){0}, &shader));
+    CHECK(shader.type == GLINT_SHADER_LAMBERTIAN && shader.diffuse_color[0] == 0.2);
+    CHECK(glint_scene_shader(scene, (GlintShaderId){1}, &shader));
+    CHECK(shader.type == GLINT_SHADER_PHONG && shader.exponent == 7);
+    CHECK(shader.mirror_color[1] == 0.2 && shader.texture.index1 == 0);
+    CHECK(!glint_scene_shader(scene, (GlintShaderId){2}, &shader));
+    CHECK(glint_scene_light(scene, 1, &light) && light.position[2] == 3);
+    CHECK(!glint_scene_light(scene, 0, &light) && !glint_scene_light(scene, 2, &light));
+    CHECK(!glint_scene_background(scene, color) && color[2] == 0.3);
+    glint_scene_destroy(scene);
+}
+
+/* Refuses one request, once it is armed. */
+typedef struct Meagre {
+    long left; /* requests until then; negative: all are granted */
+} Meagre;
+
+static void *meagre(void *user, void *pointer, size_t old_size, size_t new_size) {
+    Meagre *self = user;
+    (void)old_size;
+    if (new_size == 0) {
+        free(pointer);
+        return NULL;
+    }
+    if (self->left >= 0 && self->left-- == 0) return NULL;
+    return realloc(pointer, new_size);
+}
+
+static void short_of_memory(void) {
+    Meagre self = {-1};
+    const GlintAllocator allocator = {meagre, &self};
+    GlintSceneDesc scene_desc = glint_scene_desc_default();
+    scene_desc.allocator = &allocator;
+    scene_desc.thread_count = 1;
+    GlintScene *scene = NULL;
+    CHECK_INT(glint_scene_create(&scene_desc, &scene, NULL), GLINT_OK);
+    CHECK_INT(glint_scene_load_file(scene, golden_path("glass-2012"), NULL, NULL), GLINT_OK);
+    CHECK_INT(glint_scene_commit(scene, NULL, NULL), GLINT_OK);
+    GlintRenderDesc desc = glint_render_desc_default();
+    desc.crop_x = 48, desc.crop_y = 40, desc.crop_width = desc.crop_height = 2;
+    const GlintExplainSink sink = {NULL, NULL, NULL, 0};
+    int failed = 0;
+    for (long n = 0; n < 200; n++) {
+        self.left = n;
+        GlintStatus status = glint_explain(scene, &desc, &sink, NULL);
+        if (status == GLINT_OK && self.left >= 0) break;
+        CHECK_INT(status, GLINT_ERROR_MEMORY);
+        failed++;
+    }
+    CHECK(failed > 8);
+    self.left = -1;
+    CHECK_INT(glint_explain(scene, &desc, &sink, NULL), GLINT_OK);
+    glint_scene_destroy(scene);
+}
+
+const GiTest tests_explain[] = {TEST(adds_up), TEST(gallery), TEST(descs), TEST(only_one_sample),
+    TEST(arguments), TEST(shaders_and_lights), TEST(short_of_memory), TEST_END};

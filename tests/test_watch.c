@@ -247,7 +247,7 @@ static void end_show(Show *show) {
 
 /* Waits for so many loads, and what comes of the last. */
 static bool wait_for_load(Show *show, uint64_t loads) {
-    for (int i = 0; i < 3000; i++) {
+    for (int i = 0; i < 15000; i++) {
         cli_session_take(show->session, &show->frame);
         const CliFrame *frame = &show->frame;
         bool done = frame->broken || (frame->finished && frame->drawn > frame->saved);
@@ -259,7 +259,7 @@ static bool wait_for_load(Show *show, uint64_t loads) {
 }
 
 static bool wait_for_camera(Show *show, const GlintCameraDesc *camera) {
-    for (int i = 0; i < 3000; i++) {
+    for (int i = 0; i < 15000; i++) {
         cli_session_take(show->session, &show->frame);
         if (show->frame.finished && cli_camera_equal(&show->frame.camera, camera)) return true;
         rest(0.002);

@@ -78,7 +78,11 @@ typedef struct GlintError {
 /* What the status says, for example "not enough memory". Never null. */
 GLINT_API const char *glint_status_text(GlintStatus status);
 
-typedef enum GlintSeverity { GLINT_SEVERITY_ERROR, GLINT_SEVERITY_WARNING } GlintSeverity;
+typedef enum GlintSeverity {
+    GLINT_SEVERITY_ERROR,
+    GLINT_SEVERITY_WARNING, /* legal, but surely a mistake */
+    GLINT_SEVERITY_NOTE     /* may well be meant */
+} GlintSeverity;
 
 /* One finding in a scene file. Loading reports all of them, not just the first. */
 typedef struct GlintDiagnostic {
@@ -90,13 +94,16 @@ typedef struct GlintDiagnostic {
     const char *excerpt; /* the line, cut to a window round the place; null when there is none */
     int caret;           /* index into excerpt, in characters, of the place */
     int caret_length;    /* at least 1 */
+    const char *rule;    /* the name of its GlintRule; null: none */
+    const char *hint;    /* how to mend it: one sentence without a full stop; null: nothing */
 } GlintDiagnostic;
 
 typedef void (*GlintDiagnosticFn)(void *user, const GlintDiagnostic *diagnostic);
 
 /* Writes the diagnostic the way a compiler prints it, "path:line:column: error: message", the
- * excerpt and a caret under the place, each line ended by a newline. At most size bytes are
- * written, always zero-terminated when size > 0. Returns the length without the cut. */
+ * excerpt and a caret under the place, then the hint, each line ended by a newline. Warnings and
+ * notes end with their rule in brackets. At most size bytes are written, always zero-terminated
+ * when size > 0. Returns the length without the cut. */
 GLINT_API size_t glint_diagnostic_format(
     const GlintDiagnostic *diagnostic, char *buffer, size_t size);
 
@@ -477,6 +484,24 @@ typedef enum GlintSampling {
     GLINT_SAMPLING_RANDOM /* plain random numbers: noisier, to compare with */
 } GlintSampling;
 
+/* What pixels show: the picture, or something that explains it. The values are those that the
+ * picture is made of. They are found by one ray through the middle of each pixel, whatever the
+ * samples; the cost is that of as many samples as the desc asks for, 0: of one. light, and the
+ * outputs beside the pixels, must be left alone.
+ * docs/views.md has pictures. */
+typedef enum GlintShow {
+    GLINT_SHOW_PICTURE,
+    GLINT_SHOW_NORMAL, /* (normal + 1) / 2, as RGBNormals has it */
+    GLINT_SHOW_DEPTH,  /* distance from the ray's origin: near white, far black */
+    GLINT_SHOW_UV,     /* texture coordinates as red and green; blue where there are none */
+    GLINT_SHOW_ID,     /* a colour for each surface */
+    GLINT_SHOW_COST,   /* nodes, leaves and exact tests of all rays of the pixel, traced one by one;
+                          with a legend. The same on every machine */
+    GLINT_SHOW_SHADOW, /* the part of the lights with a place or direction that the point faces and
+                          nothing hides: all white, none black */
+    GLINT_SHOW_COUNT
+} GlintShow;
+
 typedef struct GlintRenderDesc {
     int width, height;           /* 0 (default): the scene's */
     int crop_x, crop_y;          /* top left corner of the part to draw; 0 */
@@ -500,6 +525,9 @@ typedef struct GlintRenderDesc {
      * camera, to the last bit, and nothing is built anew. null (default): the scene's. Read before
      * the call returns. */
     const GlintCameraDesc *camera;
+    GlintShow show;      /* PICTURE */
+    double *shown_range; /* null (default), or where to put two numbers: of DEPTH the distances that
+                          * are white and black, of COST 0 and what is white */
     int cookie;
 } GlintRenderDesc;
 
@@ -756,6 +784,29 @@ typedef struct GlintStats {
 
 GLINT_API void glint_scene_stats(const GlintScene *scene, GlintStats *stats);
 
+/* ---------------------------------------------------------------- checks */
+
+/* What a finding is an instance of. docs/check.md has an example of each. */
+typedef struct GlintRule {
+    const char *name; /* "light-inside-solid": never changes its meaning */
+    GlintSeverity severity;
+    const char *summary; /* what is found: one sentence, with its full stop */
+    const char *help;    /* why it is told, and what to do: sentences */
+} GlintRule;
+
+/* Every rule, those of errors first; null behind the last. Lives for ever. */
+GLINT_API const GlintRule *glint_rule_at(int index);
+
+/* Looks for what is legal in a committed scene but surely a mistake, and reports it through the
+ * scene's diagnostic callback, on this thread, in the order of the file: warnings and notes, never
+ * errors. Load the scene with keep_sources, or findings have no place. Of each rule the first ten
+ * findings are told and the others counted, in one more without a place. For some rules a few small
+ * pictures are drawn. Takes
+ * milliseconds, with a hundred thousand surfaces a second or two. Not while the scene is drawn.
+ * monitor may be null. Errors: ARGUMENT (the scene is not committed), MEMORY, THREAD, CANCELLED. */
+GLINT_API GlintStatus glint_scene_check(
+    GlintScene *scene, const GlintMonitor *monitor, GlintError *error);
+
 /* ---------------------------------------------------------------- pictures */
 
 typedef struct GlintImage {
@@ -832,8 +883,8 @@ GLINT_API GlintStatus glint_image_encode_png(const GlintImage *image, const Glin
 
 /* The recipe of what glint_render would draw now, to be destroyed by the caller. with_files: with
  * the content of the scene and of all files that it names, for which it must have been loaded with
- * keep_sources. Errors: ARGUMENT (also a desc with a camera), FILE (a file has changed since, or
- * cannot be read), MEMORY. */
+ * keep_sources. Errors: ARGUMENT (also a desc with a camera, or that shows something else than the
+ * picture: neither has a recipe), FILE (a file has changed since, or cannot be read), MEMORY. */
 GLINT_API GlintStatus glint_scene_recipe(const GlintScene *scene, const GlintRenderDesc *desc,
     bool with_files, GlintRecipe **recipe, GlintError *error);
 
@@ -856,6 +907,141 @@ GLINT_API GlintStatus glint_picture_digest(const char *path, uint64_t *digest, G
 
 /* The 8-bit values that the PNG would hold: width * height * 3 bytes. */
 GLINT_API void glint_image_to_rgb8(const GlintImage *image, uint8_t *rgb);
+
+/* ---------------------------------------------------------------- what a scene file may hold */
+
+/* What stands in an element: a value, or, from GLINT_ELEMENT_SCENE on, other elements. */
+typedef enum GlintElementKind {
+    GLINT_ELEMENT_NUMBER,
+    GLINT_ELEMENT_WHOLE_NUMBER,
+    GLINT_ELEMENT_IMAGE_SIZE, /* two whole numbers */
+    GLINT_ELEMENT_VECTOR,     /* three numbers, like the next two */
+    GLINT_ELEMENT_POINT,
+    GLINT_ELEMENT_COLOR,
+    GLINT_ELEMENT_WORD, /* one of choices */
+    GLINT_ELEMENT_TEXT,
+    GLINT_ELEMENT_SCENE,
+    GLINT_ELEMENT_CAMERA,
+    GLINT_ELEMENT_SURFACE,
+    GLINT_ELEMENT_SHADER,
+    GLINT_ELEMENT_BSDF,
+    GLINT_ELEMENT_BRDF,
+    GLINT_ELEMENT_TEXTURE,
+    GLINT_ELEMENT_LIGHT,
+    GLINT_ELEMENT_ENVIRONMENT,
+    GLINT_ELEMENT_INTEGRATOR
+} GlintElementKind;
+
+typedef enum GlintElementRange {
+    GLINT_RANGE_ANY,
+    GLINT_RANGE_POSITIVE,
+    GLINT_RANGE_SAMPLES,  /* 0 to 65536 */
+    GLINT_RANGE_NOT_ZERO, /* the vector has a length */
+    GLINT_RANGE_NO_ZEROS, /* nor has it a component that is zero */
+    GLINT_RANGE_ANGLE,    /* between 0 and 180, both excluded */
+    GLINT_RANGE_BIT,      /* 0 or 1 */
+    GLINT_RANGE_DEPTH,    /* 1 to 4096 */
+    GLINT_RANGE_PIXELS    /* each at least 1, together at most 2^28 */
+} GlintElementRange;
+
+/* An element in the places where it means the same. One of the same name may follow that stands
+ * elsewhere, or has another default there. */
+typedef struct GlintElement {
+    const char *name; /* files may write it in any case */
+    GlintElementKind kind;
+    GlintElementRange range;
+    bool required;            /* an object that it may stand in needs it; the scene does not */
+    const char *default_text; /* null: there is none */
+    const char *example;      /* of a value; null for what holds elements */
+    const char *choices;      /* of a word: all there are, separated by blanks; else null */
+    const char *alias_of;     /* null, or the element that it is another word for */
+    const char *default_type; /* the type that is meant when the file says none; null: it must */
+    const char *years;        /* dialects that it was made for, separated by blanks; null: all */
+    const char *help;         /* a phrase */
+} GlintElement;
+
+/* A type of the elements of a kind. */
+typedef struct GlintElementType {
+    const char *name; /* exactly so */
+    GlintElementKind kind;
+    const char *alias_of; /* null, or the type that it is another word for */
+    const char *years;    /* as above */
+    const char *help;
+} GlintElementType;
+
+/* The element or type at an index from 0 on; element 0 is the scene. False behind the last. All
+ * texts live as long as the program. */
+GLINT_API bool glint_element_at(int index, GlintElement *element);
+GLINT_API bool glint_element_type_at(int index, GlintElementType *type);
+
+/* Whether the element at an index may stand in one of the type at another; type -1: in the scene
+ * itself. */
+GLINT_API bool glint_element_fits(int element, int type);
+
+/* "a number", "a surface"; "greater than 0", null for ANY. */
+GLINT_API const char *glint_element_kind_text(GlintElementKind kind);
+GLINT_API const char *glint_element_range_text(GlintElementRange range);
+
+/* ---------------------------------------------------------------- scene files as text */
+
+typedef struct GlintFormatDesc {
+    const GlintAllocator *allocator; /* null (default): the C library's */
+    GlintDiagnosticFn diagnostic;    /* what is wrong with the file; null (default): only *error */
+    void *diagnostic_user;
+    int cookie;
+} GlintFormatDesc;
+
+GLINT_API GlintFormatDesc glint_format_desc_default(void);
+
+/* Lays a scene file out as docs/format-tools.md says and hands the bytes, UTF-8, to sink. Comments
+ * and the spelling of numbers stay as they are, and so does all that the file means. Laid out
+ * again it does not change. The files that the scene names are not opened. name stands for the path
+ * in messages. Nothing is handed out unless the file is a good scene. Any number of threads may
+ * call it. Errors: ARGUMENT, SCENE, FILE (sink returned false), MEMORY. */
+GLINT_API GlintStatus glint_format(const void *bytes, size_t size, const char *name,
+    const GlintFormatDesc *desc, GlintSinkFn sink, void *user, GlintError *error);
+
+/* ---- upgrading */
+
+typedef enum GlintChangeKind {
+    GLINT_CHANGE_SAME,     /* written otherwise, and the picture is the same to the last bit */
+    GLINT_CHANGE_ROUNDING, /* the same but for the last digits */
+    GLINT_CHANGE_DIFFERENT /* the rules have no counterpart: pixels may differ */
+} GlintChangeKind;
+
+typedef struct GlintChange {
+    GlintChangeKind kind;
+    int64_t line, column; /* in the old text, from 1 */
+    const char *message;  /* what changes, and why */
+} GlintChange;
+
+typedef void (*GlintChangeFn)(void *user, const GlintChange *change);
+
+typedef struct GlintUpgradeDesc {
+    GlintDialect dialect; /* of the old text; AUTO (default): what it says or shows */
+    GlintChangeFn change; /* each change, in the order of the text; null (default): none is told */
+    void *change_user;
+    const GlintAllocator *allocator; /* null (default): the C library's */
+    GlintDiagnosticFn diagnostic;    /* as of GlintFormatDesc */
+    void *diagnostic_user;
+    int cookie;
+} GlintUpgradeDesc;
+
+GLINT_API GlintUpgradeDesc glint_upgrade_desc_default(void);
+
+/* Rewrites a scene of any dialect by the rules of `glint` so that it draws the same picture, and
+ * hands the bytes, UTF-8, to sink. What the rules do not allow is told as GLINT_CHANGE_DIFFERENT; a
+ * scene of which no change but GLINT_CHANGE_SAME is told draws the same bits. Only what has to
+ * change is touched: comments, layout and numbers stay. docs/format-tools.md lists what is done.
+ * *dialect, when not null, becomes the old text's. The rest is as with glint_format. */
+GLINT_API GlintStatus glint_upgrade(const void *bytes, size_t size, const char *name,
+    const GlintUpgradeDesc *desc, GlintSinkFn sink, void *user, GlintDialect *dialect,
+    GlintError *error);
+
+/* Writes a file whole or not at all: under a temporary name that is then changed to path. A file
+ * that is replaced keeps its permissions, a link its place. Errors: ARGUMENT, FILE, MEMORY. */
+GLINT_API GlintStatus glint_file_save(
+    const char *path, const void *bytes, size_t size, GlintError *error);
 
 #ifdef __cplusplus
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What the walks do, added up. Only the bench wants to know: it compiles the portable kernel once
- * more with GI_COUNT, and of the library's own kernels nothing of this is a part. */
+ * What the walks do, added up for each thread. The kernels do not count: only what is compiled with
+ * GI_COUNT does, which is the bench's own kernel and kernel/counting.c. */
 #pragma once
 
 #ifdef GI_COUNT
@@ -11,7 +11,7 @@ typedef struct GiCounts {
     uint64_t leaves; /* the same against the up to eight shapes of a leaf */
     uint64_t shapes; /* a ray against a shape by the exact formula */
 } GiCounts;
-extern GiCounts gi_counts;
+extern _Thread_local GiCounts gi_counts; /* in counting.c */
 
 #define COUNT(member, amount) (gi_counts.member += (uint64_t)(amount))
 #else

@@ -28,6 +28,10 @@ static void put_number(Output *output, int64_t number) {
     put_text(output, text);
 }
 
+static const char *const severity_texts[] = {[GLINT_SEVERITY_ERROR] = ": error: ",
+    [GLINT_SEVERITY_WARNING] = ": warning: ",
+    [GLINT_SEVERITY_NOTE] = ": note: "};
+
 size_t glint_diagnostic_format(const GlintDiagnostic *diagnostic, char *buffer, size_t size) {
     Output output = {.buffer = buffer, .size = size > 0 ? size - 1 : 0};
     put_text(&output, diagnostic->path != NULL ? diagnostic->path : "");
@@ -35,8 +39,13 @@ size_t glint_diagnostic_format(const GlintDiagnostic *diagnostic, char *buffer, 
         put_number(&output, diagnostic->line);
         put_number(&output, diagnostic->column);
     }
-    put_text(&output, diagnostic->severity == GLINT_SEVERITY_WARNING ? ": warning: " : ": error: ");
+    put_text(&output, severity_texts[diagnostic->severity]);
     put_text(&output, diagnostic->message);
+    if (diagnostic->severity != GLINT_SEVERITY_ERROR && diagnostic->rule != NULL) {
+        put_text(&output, " [");
+        put_text(&output, diagnostic->rule);
+        put_text(&output, "]");
+    }
     put_text(&output, "\n");
     if (diagnostic->excerpt != NULL) {
         put_text(&output, diagnostic->excerpt);
@@ -50,6 +59,11 @@ size_t glint_diagnostic_format(const GlintDiagnostic *diagnostic, char *buffer, 
         }
         put_text(&output, "^");
         for (int i = 1; i < diagnostic->caret_length; i++) put_text(&output, "~");
+        put_text(&output, "\n");
+    }
+    if (diagnostic->hint != NULL) {
+        put_text(&output, "  hint: ");
+        put_text(&output, diagnostic->hint);
         put_text(&output, "\n");
     }
     if (size > 0) buffer[output.length < size ? output.length : size - 1] = '\0';

@@ -163,6 +163,9 @@ typedef struct GiElement {
     const char *choices;  /* words separated by spaces */
     const char *alias_of; /* null, or the name of the main row */
     const char *type;     /* the one that is meant when the file says none; null: it must say */
+    const char *years;    /* dialects it was made for, separated by spaces; null: all. It is in
+                             glint's as well, and understood in every other */
+    const char *example;  /* a value, where there is no default to show */
     const char *help;
 } GiElement;
 
@@ -174,6 +177,7 @@ typedef struct GiType {
     unsigned evidence;
     const char *alias_of;
     const char *help;
+    const char *years; /* as above */
 } GiType;
 
 extern const GiElement gi_elements[]; /* ends with a null name; row 0 is the scene */

@@ -229,8 +229,10 @@ static bool report_loader(
         gi_reader_stop(reader);
     } else {
         if (line > 0) snprintf(at, sizeof at, ":%llu", (unsigned long long)line);
+        reader->report.rule = GI_RULE_FILE;
         gi_report_add(&reader->report, loading->place, loading->length, "%s%s: %s",
             quote_path(quote, loading->path), at, message);
+        reader->report.rule = GI_RULE_SCENE;
     }
     return false;
 }
@@ -335,7 +337,9 @@ static bool load(GiReader *reader, GiKind kind, GiVec name, GiPlace place, uint3
     } else if (find(reader->source->name, text, path, &id)) {
         good = load_found(&loading, kind, text, id, index);
     } else {
+        reader->report.rule = GI_RULE_FILE;
         report_missing(reader, text, place, (int)name.y);
+        reader->report.rule = GI_RULE_SCENE;
         return false; /* and again at its next use, since that is another line to mend */
     }
     entry->kind = (uint8_t)kind;
@@ -361,7 +365,9 @@ bool gi_files_environment(GiReader *reader, GiVec name, GiPlace place) {
     char path[PATH_LIMIT];
     GiFileId id;
     if (!find(reader->source->name, text, path, &id)) {
+        reader->report.rule = GI_RULE_FILE;
         report_missing(reader, text, place, (int)name.y);
+        reader->report.rule = GI_RULE_SCENE;
         return false;
     }
     if (environment->face > 0 && gi_file_same(id, reader->files.environment)) {

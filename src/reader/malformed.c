@@ -221,6 +221,7 @@ static int64_t find_junk(const GiReader *reader, int64_t fallback) {
 
 void gi_malformed_report(GiReader *reader) {
     GiReport *report = &reader->report;
+    report->rule = GI_RULE_SYNTAX;
     enum XML_Error code = XML_GetErrorCode(reader->parser);
     int64_t offset = gi_parser_offset(reader);
     int64_t end = reader->window.base + (int64_t)reader->window.size;

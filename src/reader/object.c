@@ -31,6 +31,14 @@ void gi_object_remember(GiReader *reader, const GiFrame *frame, GlintObjectKind 
     if (!gi_sources_add(sources, kind, frame->place.offset, name)) gi_reader_out_of_memory(reader);
 }
 
+void gi_object_remember_idle(GiReader *reader, const GiFrame *frame) {
+    GiSources *sources = reader->source->sources;
+    if (sources == NULL) return;
+    if (!gi_array_push(sources->memory, &sources->idle, frame->place.offset)) {
+        gi_reader_out_of_memory(reader);
+    }
+}
+
 void gi_object_name_value(GiReader *reader, const GiFrame *frame, GiVec value) {
     if (!gi_reader_is_named(reader, frame)) return;
     uint32_t index = (uint32_t)reader->names.values.count;

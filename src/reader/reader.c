@@ -256,6 +256,10 @@ GlintStatus gi_reader_load(
     }
     if (result != NULL) result->byte_count = feed.total;
     if (source->sources != NULL) {
+        source->sources->root = reader->report.root.offset;
+        source->sources->evidence = reader->evidence;
+        source->sources->guessed =
+            source->dialect == GLINT_DIALECT_AUTO && reader->dialect == GLINT_DIALECT_AUTO;
         source->sources->window = reader->window;
         gi_window_init(&reader->window, reader->memory);
     }

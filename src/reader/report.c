@@ -11,6 +11,7 @@ void gi_report_init(GiReport *report, GiMemory *memory, GiWindow *window) {
     memset(report, 0, sizeof *report);
     report->memory = memory;
     report->window = window;
+    report->rule = GI_RULE_SCENE;
 }
 
 void gi_report_reset(GiReport *report) { gi_array_free(report->memory, &report->findings); }
@@ -23,7 +24,7 @@ void gi_report_add(GiReport *report, GiPlace place, int length, const char *form
     }
     GiFinding *finding = &report->findings.data[report->findings.count++];
     gi_window_locate(report->window, &place);
-    *finding = (GiFinding){.place = place, .length = length > 0 ? length : 1};
+    *finding = (GiFinding){.place = place, .length = length > 0 ? length : 1, .rule = report->rule};
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(finding->message, sizeof finding->message, format, arguments);
@@ -91,6 +92,7 @@ void gi_report_emit(GiReport *report, const char *path, GlintDiagnosticFn diagno
                              .excerpt = has_excerpt ? finding->excerpt : NULL,
                              .caret = has_excerpt ? finding->caret : 0,
                              .caret_length = length > 0 ? length : 1,
+                             .rule = finding->rule,
                          });
     }
     int64_t more = report->error_count - (int64_t)count;
@@ -103,6 +105,7 @@ void gi_report_emit(GiReport *report, const char *path, GlintDiagnosticFn diagno
                              .path = path,
                              .message = message,
                              .caret_length = 1,
+                             .rule = GI_RULE_SCENE,
                          });
     }
 }

@@ -7,6 +7,11 @@
 #include "base/error.h"
 #include "reader/window.h"
 
+/* The rules of errors, as in check/rule.h. */
+#define GI_RULE_SYNTAX "syntax"
+#define GI_RULE_SCENE  "scene"
+#define GI_RULE_FILE   "file"
+
 enum { GI_REPORT_LIMIT = 100, GI_QUOTE_SIZE = 200 };
 
 typedef struct GiFinding {
@@ -14,6 +19,7 @@ typedef struct GiFinding {
     int length; /* of the token, in characters */
     bool shown; /* the excerpt is taken */
     int caret;
+    const char *rule;
     char message[400];
     char excerpt[GI_EXCERPT_SIZE];
 } GiFinding;
@@ -24,7 +30,8 @@ typedef struct GiReport {
     GI_ARRAY(GiFinding) findings;
     int64_t error_count;
     bool out_of_memory;
-    GiPlace root; /* the scene element: its line is kept for what is missing at the end */
+    const char *rule; /* what the next findings are of, a name that lives for ever */
+    GiPlace root;     /* the scene element: its line is kept for what is missing at the end */
     char root_excerpt[GI_EXCERPT_SIZE];
     bool root_shown; /* the line is taken */
     int root_caret;

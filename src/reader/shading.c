@@ -87,7 +87,10 @@ void gi_shading_finish_shader(GiReader *reader, GiFrame *frame, GiFrame *parent)
         return;
     }
     bool used = is_plain_surface(parent) || frame->element->slot == GI_SLOT_SUBSTRATE;
-    if (!used && !gi_reader_is_named(reader, frame)) return;
+    if (!used && !gi_reader_is_named(reader, frame)) {
+        gi_object_remember_idle(reader, frame);
+        return;
+    }
     size_t index = reader->scene->shaders.count;
     if (index >= UINT32_MAX ||
         !gi_array_push(reader->memory, &reader->scene->shaders, make_shader(reader, frame))) {

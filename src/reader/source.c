@@ -29,6 +29,7 @@ void gi_sources_reset(GiSources *sources) {
     for (int kind = 0; kind < GLINT_OBJECT_KIND_COUNT; kind++) {
         gi_array_free(sources->memory, &sources->objects[kind]);
     }
+    gi_array_free(sources->memory, &sources->idle);
     gi_array_free(sources->memory, &sources->names);
     gi_array_free(sources->memory, &sources->path);
     gi_window_reset(&sources->window);
@@ -68,19 +69,29 @@ static int tag_length(const GiWindow *window, int64_t offset) {
     return length;
 }
 
+int64_t gi_sources_offset(const GiSources *sources, GlintObjectKind kind, uint32_t index1) {
+    const GiSource *object = find(sources, kind, index1);
+    return object != NULL ? object->offset : -1;
+}
+
+void gi_sources_point_at(
+    GiSources *sources, int64_t offset, char buffer[GI_EXCERPT_SIZE], GlintDiagnostic *diagnostic) {
+    GiPlace place = {.offset = offset};
+    gi_window_locate(&sources->window, &place);
+    diagnostic->path = sources->path.data;
+    diagnostic->line = place.line;
+    diagnostic->column = place.column;
+    gi_window_excerpt(&sources->window, offset, buffer, &diagnostic->caret);
+    diagnostic->excerpt = buffer;
+    diagnostic->caret_length = tag_length(&sources->window, offset);
+}
+
 void gi_sources_point(GiSources *sources, GlintObjectKind kind, uint32_t index1,
     char buffer[GI_EXCERPT_SIZE], GlintDiagnostic *diagnostic) {
     diagnostic->path = sources->path.data;
     diagnostic->line = diagnostic->column = 0;
     diagnostic->excerpt = NULL;
     diagnostic->caret_length = 1;
-    const GiSource *object = find(sources, kind, index1);
-    if (object == NULL) return;
-    GiPlace place = {.offset = object->offset};
-    gi_window_locate(&sources->window, &place);
-    diagnostic->line = place.line;
-    diagnostic->column = place.column;
-    gi_window_excerpt(&sources->window, object->offset, buffer, &diagnostic->caret);
-    diagnostic->excerpt = buffer;
-    diagnostic->caret_length = tag_length(&sources->window, object->offset);
+    int64_t offset = gi_sources_offset(sources, kind, index1);
+    if (offset >= 0) gi_sources_point_at(sources, offset, buffer, diagnostic);
 }

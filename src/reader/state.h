@@ -191,6 +191,8 @@ void gi_object_refer(GiReader *reader, GiFrame *frame, GiFrame *parent, const Gi
 void gi_object_name(GiReader *reader, const GiFrame *frame, GiNamed named);
 /* Remembers where an object that has just been added stands, if anybody wants to know. */
 void gi_object_remember(GiReader *reader, const GiFrame *frame, GlintObjectKind kind);
+/* The same of a shader that is not added, since nothing has it and nothing can refer to it. */
+void gi_object_remember_idle(GiReader *reader, const GiFrame *frame);
 /* Remembers a value. */
 void gi_object_name_value(GiReader *reader, const GiFrame *frame, GiVec value);
 

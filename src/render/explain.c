@@ -34,6 +34,7 @@ static bool explain_pixel(Explainer *explainer, const GiRenderArea *area, int x,
             &counts, &explainer->control)) {
         return false;
     }
+    if (explainer->record.out_of_memory) return false; /* of the last sample */
     tell_pixel(explainer, x, y, explainer->record.samples);
     return true;
 }

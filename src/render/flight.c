@@ -12,11 +12,11 @@
 
 void gi_flight_add(const GiStage *stage, const GiFlight *flight) {
     GiTileScratch *scratch = stage->scratch;
-    GiFlight own = *flight;
-    if (gi_stage_records(stage)) own.ray = gi_record_flight(stage, flight);
-    if (!gi_array_push(stage->world->scene->memory, &scratch->flights, own)) {
+    if (!gi_array_push(stage->world->scene->memory, &scratch->flights, *flight)) {
         scratch->out_of_memory = true;
         atomic_store(stage->control->stop, true);
+    } else if (gi_stage_records(stage)) {
+        scratch->flights.data[scratch->flights.count - 1].ray = gi_record_flight(stage, flight);
     }
 }
 

@@ -3,7 +3,7 @@
 #include "shade/shade.h"
 
 /* What arrives at point i. */
-static void add_point(const GiStage *stage, int i, GiVec light) {
+static inline void add_point(const GiStage *stage, int i, GiVec light) {
     GiTileScratch *scratch = stage->scratch;
     GiPoints *points = &scratch->points;
     if (scratch->weighted) light = gi_multiply(scratch->factors[i], light);
@@ -310,5 +310,5 @@ void gi_lights_add(const GiStage *stage) {
     if (stage->world->sky_lights && gi_stage_draws(stage, -1)) add_sky(stage);
     if (!stage->scratch->shared) show_points(stage->scratch);
     stage->scratch->points.count = stage->scratch->segment_count = 0;
-    if (gi_stage_records(stage)) stage->target->record->points.count = 0;
+    if (gi_stage_records(stage)) stage->record->points.count = 0;
 }

@@ -94,7 +94,7 @@ static void note_hit(
 
 void gi_record_camera(const GiStage *stage) {
     const GiBundle *bundle = &stage->scratch->bundle;
-    GiRecord *record = stage->target->record;
+    GiRecord *record = stage->record;
     record->rays.count = record->layers.count = record->branches.count = 0;
     record->lights.count = record->additions.count = 0;
     record->points.count = record->beams.count = record->next_beam = 0;
@@ -115,7 +115,7 @@ void gi_record_camera(const GiStage *stage) {
 }
 
 uint32_t gi_record_flight(const GiStage *stage, const GiFlight *flight) {
-    GiRecord *record = stage->target->record;
+    GiRecord *record = stage->record;
     GlintExplainBranch *branch = branch_at(record, record->chosen);
     if (branch == NULL) return GLINT_NONE;
     GlintExplainRay ray = {.kind = branch->kind,
@@ -136,14 +136,14 @@ uint32_t gi_record_flight(const GiStage *stage, const GiFlight *flight) {
 }
 
 void gi_record_hit(const GiStage *stage, uint32_t index, const GiTraceHit *hit) {
-    GlintExplainRay *ray = ray_at(stage->target->record, index);
+    GlintExplainRay *ray = ray_at(stage->record, index);
     if (ray == NULL || hit == NULL) return;
     note_hit(stage->world, ray, hit->shape, hit->instance, hit->t);
 }
 
 void gi_record_points(const GiStage *stage, uint32_t index) {
     const GiTileScratch *scratch = stage->scratch;
-    GiRecord *record = stage->target->record;
+    GiRecord *record = stage->record;
     GlintExplainRay *ray = ray_at(record, index);
     for (int i = (int)record->points.count; i < scratch->points.count; i++) {
         PUSH(record, points, index);
@@ -185,7 +185,7 @@ static void add_branch(GiRecord *record, uint32_t ray, GlintRayKind kind, const 
 
 /* What the bsdf may draw: the rest of a path, or a look for large lights. */
 static void add_drawn(const GiStage *stage, uint32_t ray, const GiScatter *scatter) {
-    GiRecord *record = stage->target->record;
+    GiRecord *record = stage->record;
     const GiWorld *world = stage->world;
     bool path = world->scene->integrator == GLINT_INTEGRATOR_PATH;
     if (scatter->local.shader == NULL || !gi_surface_probes(world, scatter->local.shader)) return;
@@ -202,7 +202,7 @@ static void add_drawn(const GiStage *stage, uint32_t ray, const GiScatter *scatt
 }
 
 void gi_record_scatter(const GiStage *stage, uint32_t ray, const GiScatter *scatter) {
-    GiRecord *record = stage->target->record;
+    GiRecord *record = stage->record;
     const GiScatterNotes *notes = &record->notes;
     GlintIntegrator integrator = stage->world->scene->integrator;
     GlintBranchFate listed = integrator == GLINT_INTEGRATOR_PATH          ? GLINT_BRANCH_NOT_CHOSEN
@@ -227,7 +227,7 @@ void gi_record_scatter(const GiStage *stage, uint32_t ray, const GiScatter *scat
 }
 
 void gi_record_choose(const GiStage *stage, int index, double chance) {
-    GiRecord *record = stage->target->record;
+    GiRecord *record = stage->record;
     record->chosen = record->listed[index];
     GlintExplainBranch *branch = branch_at(record, record->chosen);
     if (branch == NULL) return;
@@ -240,7 +240,7 @@ void gi_record_choose(const GiStage *stage, int index, double chance) {
 }
 
 void gi_record_roulette(const GiStage *stage, double p) {
-    GiRecord *record = stage->target->record;
+    GiRecord *record = stage->record;
     GlintExplainBranch *branch = branch_at(record, record->chosen);
     if (branch == NULL) return;
     branch->survival = p;
@@ -261,7 +261,7 @@ uint32_t gi_record_sum(GiRecord *record, uint32_t ray, uint32_t light, GiVec amo
 }
 
 void gi_record_add(const GiStage *stage, uint32_t ray, GiVec amount) {
-    gi_record_sum(stage->target->record, ray, GLINT_NONE, amount);
+    gi_record_sum(stage->record, ray, GLINT_NONE, amount);
 }
 
 void gi_record_choose_samples(const GiRecord *record, int *first, int *end) {
@@ -278,7 +278,7 @@ static int grid_of(int samples) {
 }
 
 void gi_record_end(const GiStage *stage, int samples) {
-    GiRecord *record = stage->target->record;
+    GiRecord *record = stage->record;
     int n = grid_of(samples), i = (int)stage->sample;
     GiVec color = record->additions.count > 0 ? record->color : gi_vec(0, 0, 0);
     bool first = i == 0 || record->sink->only_sample > 0;

@@ -10,6 +10,13 @@
 
 #include "render/stage.h"
 
+/* Who calls these does so hardly ever, and is to be compiled for the other case. */
+#if defined(__GNUC__)
+#define GI_RARELY __attribute__((cold))
+#else
+#define GI_RARELY
+#endif
+
 struct GiRecord {
     GiMemory *memory;
     const GlintExplainSink *sink;
@@ -38,53 +45,53 @@ void gi_record_reset(GiRecord *record);
 void gi_record_choose_samples(const GiRecord *record, int *first, int *end);
 
 /* A sample begins: its only camera ray lies traced in the bundle. */
-void gi_record_camera(const GiStage *stage);
+GI_RARELY void gi_record_camera(const GiStage *stage);
 
 /* Gives a ray that is sent along the chosen branch its number. */
-uint32_t gi_record_flight(const GiStage *stage, const GiFlight *flight);
+GI_RARELY uint32_t gi_record_flight(const GiStage *stage, const GiFlight *flight);
 
 /* What the ray with this number met; null: nothing. */
-void gi_record_hit(const GiStage *stage, uint32_t ray, const GiTraceHit *hit);
+GI_RARELY void gi_record_hit(const GiStage *stage, uint32_t ray, const GiTraceHit *hit);
 
 /* All points that have come since belong to this ray. */
-void gi_record_points(const GiStage *stage, uint32_t ray);
+GI_RARELY void gi_record_points(const GiStage *stage, uint32_t ray);
 
 /* Where gi_bsdf_scatter is to leave its notes; null in drawing. */
 static inline GiScatterNotes *gi_record_notes(const GiStage *stage) {
-    return gi_stage_records(stage) ? &stage->target->record->notes : NULL;
+    return gi_stage_records(stage) ? &stage->record->notes : NULL;
 }
 
 /* What they say of the surface that the ray met. Until a branch is chosen it is not followed. */
-void gi_record_scatter(const GiStage *stage, uint32_t ray, const GiScatter *scatter);
+GI_RARELY void gi_record_scatter(const GiStage *stage, uint32_t ray, const GiScatter *scatter);
 
 /* The next ray goes along this branch of the surface, or, behind the last, in a direction that its
  * bsdf draws; a path does so with this chance. */
-void gi_record_choose(const GiStage *stage, int branch, double chance);
+GI_RARELY void gi_record_choose(const GiStage *stage, int branch, double chance);
 
 /* ... but chance decides whether the path goes on, and p is that of going on. */
-void gi_record_roulette(const GiStage *stage, double p);
+GI_RARELY void gi_record_roulette(const GiStage *stage, double p);
 
 /* What the end of a ray shows by itself is added. */
-void gi_record_add(const GiStage *stage, uint32_t ray, GiVec amount);
+GI_RARELY void gi_record_add(const GiStage *stage, uint32_t ray, GiVec amount);
 
 /* A sample has been drawn. */
-void gi_record_end(const GiStage *stage, int samples);
+GI_RARELY void gi_record_end(const GiStage *stage, int samples);
 
 /* ---- record_light.c: lights. A light is an index into the scene's, or -1: the environment */
 
 /* The shadow rays of all points have been traced, as the lit has it, and what arrives is added. */
-void gi_record_point_light(const GiStage *stage, size_t light);
+GI_RARELY void gi_record_point_light(const GiStage *stage, size_t light);
 
-void gi_record_ambient(const GiStage *stage, size_t light, int point, GiVec adds);
+GI_RARELY void gi_record_ambient(const GiStage *stage, size_t light, int point, GiVec adds);
 
 /* A beam that adds so much, unless it is blocked, which is told later and in the same order; share
  * is what the product of its light and the bsdf has been multiplied by. */
-void gi_record_beam(
+GI_RARELY void gi_record_beam(
     const GiStage *stage, int light, int point, const GiBeam *beam, double share, GiVec adds);
-void gi_record_beam_traced(const GiStage *stage, const GiTraceRay *ray, bool blocked);
+GI_RARELY void gi_record_beam_traced(const GiStage *stage, const GiTraceRay *ray, bool blocked);
 
 /* No beam goes to the light from there. */
-void gi_record_no_beam(const GiStage *stage, int light, int point);
+GI_RARELY void gi_record_no_beam(const GiStage *stage, int light, int point);
 
 /* ---- both */
 

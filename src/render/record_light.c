@@ -39,7 +39,7 @@ static GlintLightFate fate_of_dark(const GlintExplainLight *note, const GiShadin
 
 /* What a light of strength E does from direction l. */
 static GlintExplainLight note_of(const GiStage *stage, int light, int i, GiVec l, GiVec strength) {
-    const GiRecord *record = stage->target->record;
+    const GiRecord *record = stage->record;
     GiShading at = gi_surface_shading(stage, i);
     GiLobes lobes = gi_bsdf_lobes(&at, l);
     GiVec h = gi_normalize(gi_add(l, at.toward_viewer));
@@ -66,7 +66,7 @@ static GlintExplainLight note_of(const GiStage *stage, int light, int i, GiVec l
 
 /* Appends it. What arrives is added, as the factor of the point has it. */
 static void keep(const GiStage *stage, int i, GlintExplainLight *note) {
-    GiRecord *record = stage->target->record;
+    GiRecord *record = stage->record;
     bool adds = note->fate == GLINT_LIGHT_ARRIVES || note->fate == GLINT_LIGHT_EVERYWHERE;
     if (adds) {
         const GiTileScratch *scratch = stage->scratch;
@@ -123,7 +123,7 @@ void gi_record_point_light(const GiStage *stage, size_t index) {
 /* ---------------------------------------------------------------- all other lights */
 
 void gi_record_ambient(const GiStage *stage, size_t index, int i, GiVec adds) {
-    const GiRecord *record = stage->target->record;
+    const GiRecord *record = stage->record;
     GlintExplainLight note = {.fate = GLINT_LIGHT_EVERYWHERE,
         .ray = (size_t)i < record->points.count ? record->points.data[i] : GLINT_NONE,
         .light = (uint32_t)index + 1,
@@ -136,7 +136,7 @@ void gi_record_ambient(const GiStage *stage, size_t index, int i, GiVec adds) {
 /* A note that waits for its shadow ray does so in its place among the lights. */
 void gi_record_beam(
     const GiStage *stage, int light, int i, const GiBeam *beam, double share, GiVec adds) {
-    GiRecord *record = stage->target->record;
+    GiRecord *record = stage->record;
     GlintExplainLight note = note_of(stage, light, i, beam->direction, beam->light);
     note.distance = beam->distance;
     note.density = beam->density;
@@ -153,7 +153,7 @@ void gi_record_beam(
 }
 
 void gi_record_beam_traced(const GiStage *stage, const GiTraceRay *ray, bool blocked) {
-    GiRecord *record = stage->target->record;
+    GiRecord *record = stage->record;
     if (record->out_of_memory || record->next_beam == record->beams.count) return;
     uint32_t place = record->beams.data[record->next_beam++];
     GlintExplainLight *note = &record->lights.data[place];

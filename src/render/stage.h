@@ -98,11 +98,12 @@ typedef struct GiStage {
     GiTileScratch *scratch;
     GiRenderCounts *counts;
     const GiRenderTarget *target;
+    GiRecord *record;      /* the target's */
     uint32_t x, y, sample; /* the tile's corner in the whole picture; number of the sample */
 } GiStage;
 
 /* Whether the pixel is drawn to be explained (render/record.h). */
-static inline bool gi_stage_records(const GiStage *stage) { return stage->target->record != NULL; }
+static inline bool gi_stage_records(const GiStage *stage) { return stage->record != NULL; }
 
 /* Whether to stop; asks the caller now and then. */
 bool gi_stage_stopped(const GiStage *stage);

@@ -61,13 +61,6 @@ GiShading gi_surface_shading(const GiStage *stage, int i) {
     };
 }
 
-/* What shadow rays from a point of the shape do not meet. */
-static inline uint32_t skip_of(const GiWorld *world, GiShapeRef shape) {
-    if (world->rules->sphere_shadows_itself) return GI_SHAPE_NONE;
-    GiShapeRef own = gi_shape_unplaced(&world->shapes, shape);
-    return gi_shape_kind(own) == GI_SHAPE_SPHERE ? shape.bits : GI_SHAPE_NONE;
-}
-
 /* The next `count` points have this shader: goes on with the last segment, or begins another. */
 static inline void extend_segment(GiTileScratch *scratch, uint32_t shader, int count) {
     int last = scratch->segment_count - 1, begin = scratch->points.count;
@@ -342,7 +335,7 @@ static void meet_surface(const GiStage *stage, const Met *met, uint32_t shader_i
     GiTileScratch *scratch = stage->scratch;
     const GiShader *shader = &world->scene->shaders.data[shader_index];
     GiSurfacePoint at = point_of(world, met);
-    Place place = {met->pixel, skip_of(world, met->shape), met->instance, {shader_index, 1}};
+    Place place = {met->pixel, gi_world_skip(world, met->shape), met->instance, {shader_index, 1}};
     show_first(stage, met->pixel, shine_of(stage, shader, at.normal));
     if (scratch->seen != NULL) note_seen(stage, met, &at, shader);
     meet_layers(stage, met, &at, shader, place);
@@ -368,7 +361,8 @@ static inline void meet_plain(const GiStage *stage, uint32_t i, uint32_t shader_
     }
     if (scratch->weighted) scratch->factors[scratch->points.count] = white();
     extend_segment(scratch, shader_index, 1);
-    const Place place = {pixel, skip_of(world, shape), bundle->instance[i], {shader_index, 1}};
+    const Place place = {
+        pixel, gi_world_skip(world, shape), bundle->instance[i], {shader_index, 1}};
     add_point(scratch, &at, direction, &place);
 }
 
@@ -476,7 +470,7 @@ void gi_surface_flight(const GiStage *stage, const GiFlight *flight, const GiTra
     GiVec shine = shine_of(stage, shader, at.normal);
     show(stage, flight->pixel, flight->ray, gi_multiply(flight->factor, shine));
     Place place = {
-        flight->pixel, skip_of(world, hit->shape), hit->instance, {index, flight->level}};
+        flight->pixel, gi_world_skip(world, hit->shape), hit->instance, {index, flight->level}};
     meet_layers(stage, &met, &at, shader, place);
     if (gi_stage_records(stage)) gi_record_points(stage, flight->ray);
 }

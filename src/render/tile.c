@@ -230,8 +230,8 @@ bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, 
     GiTileExtent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
     if (extent.width > side) extent.width = side;
     if (extent.height > side) extent.height = side;
-    GiStage stage = {
-        world, control, scratch, counts, target, (uint32_t)extent.x, (uint32_t)extent.y, 0};
+    GiStage stage = {world, control, scratch, counts, target, target->record, (uint32_t)extent.x,
+        (uint32_t)extent.y, 0};
     scratch->bundle.stop = ask;
     scratch->bundle.stop_context = control;
     int n = grid_of(target->samples);

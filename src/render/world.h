@@ -31,6 +31,13 @@ typedef struct GiWorld {
     bool has_large_lights; /* that can be found by chance: the sky or a visible rectangle */
 } GiWorld;
 
+/* What shadow rays from a point of the shape do not meet. */
+static inline uint32_t gi_world_skip(const GiWorld *world, GiShapeRef shape) {
+    if (world->rules->sphere_shadows_itself) return GI_SHAPE_NONE;
+    GiShapeRef own = gi_shape_unplaced(&world->shapes, shape);
+    return gi_shape_kind(own) == GI_SHAPE_SPHERE ? shape.bits : GI_SHAPE_NONE;
+}
+
 /* Spreads out the groups and builds the trees. The scene must have a camera, an image and a
  * dialect, and stay as it is while the world lives; its lists of children are released. *world is
  * zeroed first; on failure it can be reset. Errors: SCENE, MEMORY, CANCELLED. */
