@@ -295,20 +295,20 @@ static void draws_what_is_saved(void) {
 /* A file that the scene names counts like the scene, also when it is missing at first. */
 static void draws_what_is_named(void) {
     Show show;
-    unlink(in_folder("mesh.obj"));
+    unlink(in_folder("named.obj"));
     write_text("named.xml", "<scene dialect='glint'><image>60 40</image>"
                             "<camera><viewPoint>0.3 0.3 2</viewPoint></camera>"
                             "<light type='ConstantLight'/>"
-                            "<surface type='Mesh'><data>mesh.obj</data></surface></scene>");
+                            "<surface type='Mesh'><data>named.obj</data></surface></scene>");
     begin_show(&show, "named.xml");
     CHECK(wait_for_load(&show, 1));
     CHECK(show.frame.broken && show.frame.pixels == NULL);
-    CHECK(strstr(cli_bytes_text(&show.frame.findings), "there is no file `mesh.obj`") != NULL);
-    write_text("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    CHECK(strstr(cli_bytes_text(&show.frame.findings), "there is no file `named.obj`") != NULL);
+    write_text("named.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     CHECK(wait_for_load(&show, 2));
     CHECK(!show.frame.broken && show.frame.findings.size == 0);
     expect_picture(&show);
-    write_and_rename("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 0.5 0\nf 1 2 3\n");
+    write_and_rename("named.obj", "v 0 0 0\nv 1 0 0\nv 0 0.5 0\nf 1 2 3\n");
     CHECK(wait_for_load(&show, 3));
     expect_picture(&show);
     end_show(&show);
