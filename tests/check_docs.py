@@ -15,7 +15,8 @@ Each page of README.md and docs/*.md gets a folder of its own, in which `build/g
 A comment in the line before a block (or with one empty line between) says what readers need not know:
 
     <!-- file: NAME -->      the block is the content of a file
-    <!-- run: status 1 -->   the commands end with that status
+    <!-- run: status 1 -->   the commands end with that status; `any`: with whatever
+    <!-- run: on -->         commands may fail, but not the last
     <!-- run: like -->       numbers and the length of blanks may be others
     <!-- run: slow -->       only with --slow
     <!-- run: never, WHY --> not here, for a reason that the comment tells
@@ -101,8 +102,10 @@ class Page:
                 print("  " + line)
 
     def shell(self, block, status):
-        done = self.run("set -e\n" + "\n".join(block.lines))
-        self.judge(block, done.returncode == status, f"status {done.returncode}", done.stdout)
+        stop = "" if "on" in block.note("run") else "set -e\n"
+        done = self.run(stop + "\n".join(block.lines))
+        good = status in (None, done.returncode)
+        self.judge(block, good, f"status {done.returncode}", done.stdout)
 
     def console(self, block, status):
         calls = []
@@ -121,7 +124,8 @@ class Page:
             if like:
                 printed, wanted = [squeezed(x) for x in printed], [squeezed(x) for x in expected]
             printed = [x.rstrip() for x in printed]
-            good = matches(printed, [x.rstrip() for x in wanted]) and done.returncode == status
+            good = status in (None, done.returncode)
+            good = good and matches(printed, [x.rstrip() for x in wanted])
             self.judge(block, good, f"$ {command}", f"status {done.returncode}, printed:",
                        done.stdout, "and not:", "\n".join(expected))
 
@@ -136,7 +140,8 @@ class Page:
         if any(note.startswith("never") for note in notes) or ("slow" in notes and not self.slow):
             self.skipped += 1
             return
-        status = next((int(note.split()[1]) for note in notes if note.startswith("status")), 0)
+        status = next((note.split()[1] for note in notes if note.startswith("status")), "0")
+        status = None if status == "any" else int(status)
         for command in block.note("before"):
             self.run(command)
         (self.shell if block.kind == "sh" else self.console)(block, status)
