@@ -31,6 +31,7 @@
     X(shape) \
     X(accel) \
     X(kernel) \
+    X(bundle) \
     X(gate) \
     X(leak) \
     X(stream) \

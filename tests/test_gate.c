@@ -283,10 +283,12 @@ static void check_bundle(const Fixture *fixture, GiBundle *bundle, bool any, con
         rays[i] = (GiTraceRay){{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
             {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
             bundle->skip[i], bundle->skip_instance[i]};
+        if (!any) rays[i].t_min = bundle->start;
         brute_force(fixture, &rays[i], &expected[i]);
     }
     const GiKernel *kernel;
     for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
+        for (int i = 0; i < bundle->count; i++) bundle->t[i] = bundle->t_max[i];
         (any ? kernel->bundle_any : kernel->bundle_closest)(&fixture->world.trace, bundle);
         for (int i = 0; i < bundle->count; i++) {
             GiTraceHit hit = {bundle->t[i], {bundle->shape[i]}, bundle->instance[i]};
@@ -369,6 +371,8 @@ static void fill_bundle(
     bundle->side = random_below(random, 2) ? gi_vec(0, 0, 0) : random_vec(random, -1, 1);
     GiVec axis = gi_sub(gi_along(room.at, random_vec(random, -1, 1), room.size), bundle->apex);
     if (random_below(random, 3) == 0) axis = gi_scale(nasty_direction(random), room.size);
+    static const double starts[] = {0, 1e-9, 0.1};
+    bundle->start = random_below(random, 2) ? 0 : starts[random_below(random, 3)];
     bool varied = random_below(random, 4) == 0, sorted = random_below(random, 2) != 0;
     for (int i = 0; i < bundle->count; i++) {
         /* Sorted: sixteen in a row are neighbours. Otherwise in any order. */
@@ -404,6 +408,7 @@ static void fill_bundle(
             bundle->skip[i], bundle->skip_instance[i]};
         nasty_limits(fixture, any, random, &ray);
         if (any && !(ray.t_max <= 1)) continue;
+        if (!any && i == 0) bundle->start = ray.t_min;
         bundle->t_min[i] = ray.t_min, bundle->t_max[i] = ray.t_max;
         bundle->skip[i] = ray.skip, bundle->skip_instance[i] = ray.skip_instance;
     }

@@ -170,6 +170,7 @@ static void compare_bundle(const Fixture *fixture, const GiKernel *kernel, Rando
         bundle.dx[i] = d.x, bundle.dy[i] = d.y, bundle.dz[i] = d.z;
         bundle.t_min[i] = any ? 1e-9 : 0;
         bundle.t_max[i] = any ? 1 : INFINITY;
+        bundle.t[i] = INFINITY;
         Thing skip = {{GI_SHAPE_NONE}, GI_SHAPE_NONE};
         if (any && i % 7 == 0) {
             skip = fixture->things.data[(size_t)i * 37 % fixture->things.count];
@@ -542,8 +543,7 @@ static void empty_scene(void) {
     for (int i = 0; i < 100; i++) {
         bundle.dx[i] = i * 0.001;
         bundle.dz[i] = 1;
-        bundle.t_max[i] = INFINITY;
-        bundle.skip[i] = bundle.skip_instance[i] = GI_SHAPE_NONE;
+        bundle.t[i] = INFINITY;
     }
     gi_kernel_at(0)->bundle_closest(&fixture.world.trace, &bundle);
     for (int i = 0; i < 100; i++) CHECK(bundle.shape[i] == GI_SHAPE_NONE);

@@ -244,7 +244,8 @@ static void fill_bundle(Worker *worker, const Closed *closed, bool any, Random *
         bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
         bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
         bundle->t_min[i] = 0;
-        bundle->t_max[i] = any ? 1 : INFINITY;
+        bundle->t_max[i] = 1;
+        bundle->t[i] = INFINITY;
         bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
     }
 }

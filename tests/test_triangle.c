@@ -154,12 +154,8 @@ static void closed_to_bundles(void) {
                 GiVec d = gi_sub(surface_point(&f, &random), bundle.apex);
                 if (gi_dot(d, axis) < 0.6 * gi_length(d) * gi_length(axis)) continue;
                 int n = bundle.count++;
-                bundle.ox[n] = bundle.apex.x, bundle.oy[n] = bundle.apex.y;
-                bundle.oz[n] = bundle.apex.z;
                 bundle.dx[n] = d.x, bundle.dy[n] = d.y, bundle.dz[n] = d.z;
-                bundle.t_min[n] = 0;
-                bundle.t_max[n] = INFINITY;
-                bundle.skip[n] = bundle.skip_instance[n] = GI_SHAPE_NONE;
+                bundle.t[n] = INFINITY;
             }
             kernel->bundle_closest(&f.world.trace, &bundle);
             for (int i = 0; i < bundle.count; i++) lost += bundle.shape[i] == GI_SHAPE_NONE;

@@ -23,6 +23,8 @@ typedef struct Frustum {
     float axis[3][3]; /* u, v, w as rows */
     float plane[4][3];
     float a0, a1, b0, b1, far;
+    float start;   /* for any: depth from which on nothing is before what the rays look at */
+    float lost;    /* of a depth, by what doubles round */
     SeenFrom seen; /* triangles, from the apex */
 } Frustum;
 
@@ -44,13 +46,18 @@ typedef struct Tile {
     GiBundle *bundle;
     bool any;
     unsigned alive[GI_PACKET_COUNT]; /* bits of rays that still look for something */
-    float a[GI_BUNDLE_ROOM], b[GI_BUNDLE_ROOM], far[GI_BUNDLE_ROOM]; /* the rays as points */
-    uint32_t inverse_known[GI_BUNDLE_SIZE / 32]; /* bits of groups of GI_DOUBLES rays */
+    /* Whether the quotients of GI_DOUBLES rays are known: bits of such groups. */
+    uint32_t inverse_known[GI_BUNDLE_SIZE / 32], square_known[GI_BUNDLE_SIZE / 32];
+    float a[GI_BUNDLE_ROOM], b[GI_BUNDLE_ROOM]; /* the rays as points */
+    float far[GI_BUNDLE_ROOM];                  /* depth that they do not look beyond, */
+    float surely[GI_BUNDLE_ROOM];               /* and for any one that they certainly look up to */
     Packets packets;
     Groups groups;
     Frustum frustum;
     double scale;
+    GiVec toward; /* along the rays: w, or for any its opposite */
     bool stopped;
+    int emptied; /* packets that have no rays left since these were looked at */
     uint32_t nearer[GI_PACKET_COUNT / 32]; /* bits of packets whose rays have met something since
                                               they were looked at */
     int tests_made;                        /* since `stop` was asked */
@@ -66,18 +73,20 @@ static inline void packet_clear(Packets *packets, int k) {
     packets->a1[k] = packets->b1[k] = packets->far[k] = -INFINITY;
 }
 
-/* Rays that fill up the last packet: copies of the first whose interval is empty. */
-static inline void tile_pad(GiBundle *bundle) {
+/* Rays that fill up the last packet: copies of the first that look for nothing. */
+static inline void tile_pad(Tile *tile) {
+    GiBundle *bundle = tile->bundle;
     int end = (bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE * GI_PACKET_SIZE;
     for (int i = bundle->count; i < end; i++) {
-        bundle->ox[i] = bundle->ox[0];
-        bundle->oy[i] = bundle->oy[0];
-        bundle->oz[i] = bundle->oz[0];
         bundle->dx[i] = bundle->dx[0];
         bundle->dy[i] = bundle->dy[0];
         bundle->dz[i] = bundle->dz[0];
-        bundle->t_min[i] = 1;
-        bundle->t_max[i] = bundle->t[i] = 0;
+        bundle->t[i] = 0;
+        if (!tile->any) continue;
+        bundle->ox[i] = bundle->ox[0];
+        bundle->oy[i] = bundle->oy[0];
+        bundle->oz[i] = bundle->oz[0];
+        bundle->t_min[i] = bundle->t_max[i] = 1;
         bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
     }
 }
@@ -112,35 +121,78 @@ static inline R tile_dot(GiVec a, R x, R y, R z) {
     return R_OF(a.x) * x + R_OF(a.y) * y + R_OF(a.z) * z;
 }
 
+/* The rays from i on: how deep a step of their length goes. */
+static inline R tile_depth(const Tile *tile, int i) {
+    const GiBundle *bundle = tile->bundle;
+    return tile_dot(
+        tile->toward, r_load(bundle->dx + i), r_load(bundle->dy + i), r_load(bundle->dz + i));
+}
+
+/* The rays from i on as points, and how deep they end. What is too oblique to the axis, more than
+ * 66 degrees, is noted, and how deep they begin. */
+static inline void rays_place(Tile *tile, bool any, int i, GiVec u, GiVec v, M *oblique, R *start) {
+    const GiBundle *bundle = tile->bundle;
+    const R one = R_OF(1);
+    R a[GI_PARTS], b[GI_PARTS], depth[GI_PARTS], end[GI_PARTS];
+    M tame = M_OF(true);
+    for (int k = 0; k < GI_PARTS; k++) {
+        int at = i + k * GI_DOUBLES;
+        R x = r_load(bundle->dx + at), y = r_load(bundle->dy + at), z = r_load(bundle->dz + at);
+        R square = x * x + y * y + z * z;
+        depth[k] = tile_dot(tile->toward, x, y, z);
+        a[k] = tile_dot(u, x, y, z);
+        b[k] = tile_dot(v, x, y, z);
+        /* depth / |d| > 0.4. */
+        *oblique = *oblique | M_NOT(R_LESS(R_OF(0.16) * square, depth[k] * depth[k]) &
+                                    R_LESS(R_OF(0), depth[k]));
+        tame = tame & R_LESS(R_OF(0x1p-60), depth[k]) & R_LESS(depth[k], R_OF(0x1p60));
+        R to;
+        if (any) {
+            /* Shadow rays end at the apex, so t counts from the other end. */
+            to = one - r_load(bundle->t_min + at);
+            *start = R_MAX(*start, (one - r_load(bundle->t_max + at)) * depth[k]);
+        } else {
+            to = r_load(bundle->t + at);
+        }
+        end[k] = to * depth[k] * R_OF(tile->scale);
+    }
+    P scale = p_of(any ? -1 : 1);
+    if (m_bits(tame) == m_bits(M_OF(true))) {
+        scale = scale / p_rounded(depth);
+    } else { /* not within the range of floats, perhaps */
+        for (int k = 0; k < GI_PARTS; k++) {
+            a[k] = a[k] / depth[k];
+            b[k] = b[k] / depth[k];
+        }
+    }
+    P far = p_rounded(end);
+    p_store(tile->a + i, p_rounded(a) * scale);
+    p_store(tile->b + i, p_rounded(b) * scale);
+    if (any) {
+        P lost = p_of(tile->frustum.lost);
+        p_store(tile->far + i, far * p_of(1 + GI_WIDER) + lost);
+        p_store(tile->surely + i, p_max(far * p_of(1 - GI_WIDER) - lost, p_of(0)));
+    } else {
+        p_store(tile->far + i, far * p_of(1 + GI_WIDER));
+    }
+}
+
 /* Rectangle and depths of the packets. False when a ray is too oblique to the axis. */
-static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiVec w) {
+static inline bool tile_packets(Tile *tile, bool any, GiVec u, GiVec v) {
     GiBundle *bundle = tile->bundle;
     Packets *packets = &tile->packets;
     M oblique = M_OF(false);
+    R start = R_OF(0);
     for (int k = 0; k < GI_PACKET_COUNT; k++) {
         if (k * GI_PACKET_SIZE >= bundle->count) {
             packet_clear(packets, k);
             tile->alive[k] = 0;
             continue;
         }
-        for (int i = k * GI_PACKET_SIZE; i < (k + 1) * GI_PACKET_SIZE; i += GI_DOUBLES) {
-            R x = r_load(bundle->dx + i), y = r_load(bundle->dy + i), z = r_load(bundle->dz + i);
-            R square = x * x + y * y + z * z;
-            r_store(bundle->inverse_square + i, R_OF(1) / square);
-            R depth = R_OF(toward) * tile_dot(w, x, y, z);
-            /* Within 66 degrees of the axis: depth / |d| > 0.4. */
-            oblique = oblique |
-                      M_NOT(R_LESS(R_OF(0.16) * square, depth * depth) & R_LESS(R_OF(0), depth));
-            r_store(bundle->depth + i, depth);
-            R scale = R_OF(toward) / depth;
-            r_store_floats(tile->a + i, tile_dot(u, x, y, z) * scale);
-            r_store_floats(tile->b + i, tile_dot(v, x, y, z) * scale);
-            /* Shadow rays end at the apex, so a ray's depth is that of its origin. */
-            R reach = depth;
-            if (!tile->any) reach = depth * r_load(bundle->t + i);
-            r_store_floats(tile->far + i, reach * R_OF(tile->scale * (1 + GI_WIDER)));
-        }
         int first = k * GI_PACKET_SIZE;
+        for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
+            rays_place(tile, any, first + j, u, v, &oblique, &start);
+        }
         packets->a0[k] = f_lowest(tile->a + first, GI_PACKET_SIZE);
         packets->a1[k] = f_highest(tile->a + first, GI_PACKET_SIZE);
         packets->b0[k] = f_lowest(tile->b + first, GI_PACKET_SIZE);
@@ -152,6 +204,13 @@ static inline bool tile_packets(Tile *tile, double toward, GiVec u, GiVec v, GiV
         packets->b1[k] += GI_WIDER * (1 + fabsf(packets->b1[k]));
         tile->alive[k] = 0xffff;
     }
+    int rest = bundle->count % GI_PACKET_SIZE;
+    if (rest != 0) tile->alive[bundle->count / GI_PACKET_SIZE] = (1u << rest) - 1;
+    double starts[GI_DOUBLES], most = 0;
+    r_store(starts, start);
+    for (int i = 0; i < GI_DOUBLES; i++) most = fmax(most, starts[i]);
+    Frustum *frustum = &tile->frustum;
+    frustum->start = (float)(2 * most * tile->scale) + 2 * frustum->margin + 16 * frustum->lost;
     return m_bits(oblique) == 0;
 }
 
@@ -198,7 +257,8 @@ static inline void tile_enclose(Tile *tile) {
     frustum_planes(frustum);
 }
 
-static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
+/* Where the apex is, before anything else. */
+static inline void tile_apex(Tile *tile) {
     Frustum *frustum = &tile->frustum;
     const GiTree *tree = tile->tree;
     GiVec apex = gi_scale(gi_sub(tile->bundle->apex, tree->center), tree->scale);
@@ -208,6 +268,11 @@ static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
     frustum->apex[2] = (float)apex.z;
     frustum->margin = (float)(GI_TREE_GROWTH * largest + tile->apart * tree->scale);
     seen_from_init(&frustum->seen, tile->bundle->apex, tile->apart, tree->scale);
+    frustum->lost = frustum->seen.error < 0x1p100f ? frustum->seen.error : 0x1p100f;
+}
+
+static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
+    Frustum *frustum = &tile->frustum;
     const GiVec rows[3] = {u, v, w};
     for (int i = 0; i < 3; i++) {
         frustum->axis[i][0] = (float)rows[i].x;
@@ -255,193 +320,4 @@ static inline unsigned tile_node(const Frustum *frustum, const GiNode *node, flo
         bits |= in << i;
     }
     return bits;
-}
-
-/* Eight shapes as rectangles in the plane of the packets. */
-typedef struct Rectangles {
-    float a0[8], a1[8], b0[8], b1[8], near[8];
-} Rectangles;
-
-/* From centres and half extents along u, v, w: (x +- e) / z over all z of the shape, which is
- * farthest out at the nearest or the farthest z. A shape that reaches the apex' own plane covers
- * everything. Returns the bits of those that may concern the tile. */
-static inline unsigned rectangles_of(
-    const Frustum *frustum, int i, const F center[3], const F extent[3], Rectangles *rectangles) {
-    F z0 = center[2] - extent[2], z1 = center[2] + extent[2];
-    F one = f_of(1);
-    F near_scale = one / z0, far_scale = one / z1;
-    F x0 = center[0] - extent[0], x1 = center[0] + extent[0];
-    F y0 = center[1] - extent[1], y1 = center[1] + extent[1];
-    F a0 = f_min(x0 * near_scale, x0 * far_scale), a1 = f_max(x1 * near_scale, x1 * far_scale);
-    F b0 = f_min(y0 * near_scale, y0 * far_scale), b1 = f_max(y1 * near_scale, y1 * far_scale);
-    /* Rays have |a|, |b| < 2.3 (tile_packets), so this is more than their rounding. */
-    F wider = f_of(4 * GI_WIDER);
-    a0 = a0 - wider;
-    a1 = a1 + wider;
-    b0 = b0 - wider;
-    b1 = b1 + wider;
-    f_store(rectangles->a0 + i, a0);
-    f_store(rectangles->a1 + i, a1);
-    f_store(rectangles->b0 + i, b0);
-    f_store(rectangles->b1 + i, b1);
-    f_store(rectangles->near + i, z0);
-    unsigned reaching = f_less_equal(z0, f_of(frustum->far)) & f_less_equal(f_of(0), z1);
-    unsigned around = reaching & f_less_equal(z0, f_of(frustum->margin));
-    unsigned in = f_less_equal(a0, f_of(frustum->a1)) & f_less_equal(f_of(frustum->a0), a1) &
-                  f_less_equal(b0, f_of(frustum->b1)) & f_less_equal(f_of(frustum->b0), b1);
-    for (unsigned bits = around; bits != 0; bits &= bits - 1) {
-        int lane = i + lowest_bit(bits);
-        rectangles->a0[lane] = rectangles->b0[lane] = rectangles->near[lane] = -INFINITY;
-        rectangles->a1[lane] = rectangles->b1[lane] = INFINITY;
-    }
-    return ((in & reaching) | around) << i;
-}
-
-static inline unsigned tile_spheres(
-    const Frustum *frustum, const GiSphereBlock *block, Rectangles *rectangles) {
-    unsigned bits = 0;
-    for (int i = 0; i < 8; i += GI_FLOATS) {
-        F x = f_load(block->center[0] + i) - f_of(frustum->apex[0]);
-        F y = f_load(block->center[1] + i) - f_of(frustum->apex[1]);
-        F z = f_load(block->center[2] + i) - f_of(frustum->apex[2]);
-        F radius = f_load(block->radius + i) + f_of(frustum->margin);
-        F center[3], extent[3] = {radius, radius, radius};
-        for (int row = 0; row < 3; row++) center[row] = frame_dot(frustum->axis[row], x, y, z);
-        bits |= rectangles_of(frustum, i, center, extent, rectangles);
-    }
-    return bits;
-}
-
-static inline unsigned tile_boxes(
-    const Frustum *frustum, const GiBoxBlock *block, Rectangles *rectangles) {
-    unsigned bits = 0;
-    for (int i = 0; i < 8; i += GI_FLOATS) {
-        F middle[3], half[3], center[3], extent[3];
-        for (int axis = 0; axis < 3; axis++) {
-            F low = f_load(block->low[axis] + i), high = f_load(block->high[axis] + i);
-            middle[axis] = (low + high) * f_of(0.5f) - f_of(frustum->apex[axis]);
-            half[axis] = (high - low) * f_of(0.5f) + f_of(frustum->margin);
-        }
-        for (int row = 0; row < 3; row++) {
-            const float *n = frustum->axis[row];
-            const float size[3] = {fabsf(n[0]), fabsf(n[1]), fabsf(n[2])};
-            center[row] = frame_dot(n, middle[0], middle[1], middle[2]);
-            extent[row] = frame_dot(size, half[0], half[1], half[2]);
-        }
-        bits |= rectangles_of(frustum, i, center, extent, rectangles);
-    }
-    return bits;
-}
-
-/* The edges of eight triangles in the plane of the packets. */
-typedef struct Edges {
-    float x[3][8], y[3][8], z[3][8], slack[8];
-} Edges;
-
-/* The places of corners: (a, b) = (x, y) / depth. A corner r away, in single precision, errs by six
- * roundings of r in each of x, y and depth, so that with |a|, |b| <= m its place errs by less than
- * 16 roundings of (1 + m)^2, and by `error` (1 + m) / depth for the apex. */
-static inline unsigned tile_triangles(const Frustum *frustum, const GiTriangles *triangles,
-    uint32_t first, uint32_t count, Rectangles *rectangles, Edges *edges) {
-    float corners[3][3][8];
-    seen_corners(&frustum->seen, triangles, first, count, corners);
-    unsigned bits = 0;
-    for (int i = 0; i < 8; i += GI_FLOATS) {
-        F a[3], b[3], depth[3], one = f_of(1), most = f_of(0);
-        for (int k = 0; k < 3; k++) {
-            F x = f_load(corners[k][0] + i), y = f_load(corners[k][1] + i),
-              z = f_load(corners[k][2] + i);
-            depth[k] = frame_dot(frustum->axis[2], x, y, z);
-            F inverse = one / depth[k];
-            a[k] = frame_dot(frustum->axis[0], x, y, z) * inverse;
-            b[k] = frame_dot(frustum->axis[1], x, y, z) * inverse;
-            most = f_max(most, f_max(f_size(a[k]), f_size(b[k])));
-        }
-        F nearest = f_min(depth[0], f_min(depth[1], depth[2]));
-        F error = f_of(frustum->seen.error), bigger = one + most;
-        F wider = (f_of(GI_WIDER) * bigger + error / nearest) * bigger;
-        F a0 = f_min(a[0], f_min(a[1], a[2])) - wider, a1 = f_max(a[0], f_max(a[1], a[2])) + wider;
-        F b0 = f_min(b[0], f_min(b[1], b[2])) - wider, b1 = f_max(b[0], f_max(b[1], b[2])) + wider;
-        /* Six roundings of the distance, which is at most (1 + 2 m) times the depth. */
-        F near = nearest - f_of(GI_WIDER) * bigger * nearest - error;
-        f_store(rectangles->a0 + i, a0);
-        f_store(rectangles->a1 + i, a1);
-        f_store(rectangles->b0 + i, b0);
-        f_store(rectangles->b1 + i, b1);
-        f_store(rectangles->near + i, near);
-        F slack = f_of(4) * wider * ((a1 - a0) + (b1 - b0) + wider);
-        f_store(edges->slack + i, slack);
-        for (int k = 0; k < 3; k++) {
-            int next = (k + 1) % 3;
-            F x = b[k] - b[next], y = a[next] - a[k];
-            f_store(edges->x[k] + i, x);
-            f_store(edges->y[k] + i, y);
-            f_store(edges->z[k] + i, f_of(0) - (x * a[k] + y * b[k]));
-        }
-        /* What reaches behind the apex, or is far off to the side, is not in the plane. */
-        unsigned all = (1u << GI_FLOATS) - 1;
-        unsigned whole = f_less_equal(f_of(4) * error, nearest) & f_less_equal(f_of(0), nearest) &
-                         f_less_equal(most, f_of(4096));
-        unsigned in = f_less_equal(a0, f_of(frustum->a1)) & f_less_equal(f_of(frustum->a0), a1) &
-                      f_less_equal(b0, f_of(frustum->b1)) & f_less_equal(f_of(frustum->b0), b1) &
-                      f_less_equal(near, f_of(frustum->far));
-        unsigned around = ~whole & all;
-        for (unsigned rest = around; rest != 0; rest &= rest - 1) {
-            int lane = i + lowest_bit(rest);
-            rectangles->a0[lane] = rectangles->b0[lane] = rectangles->near[lane] = -INFINITY;
-            rectangles->a1[lane] = rectangles->b1[lane] = edges->slack[lane] = INFINITY;
-            for (int k = 0; k < 3; k++) {
-                edges->x[k][lane] = edges->y[k][lane] = edges->z[k][lane] = 0;
-            }
-        }
-        bits |= ((in & whole) | around) << i;
-    }
-    return bits & ((1u << count) - 1);
-}
-
-/* Of eight shapes, bits of those that may concern the packets of a group. */
-static inline unsigned tile_group(const Groups *groups, int g, const Rectangles *shapes) {
-    unsigned bits = 0;
-    for (int i = 0; i < 8; i += GI_FLOATS) {
-        bits |= (f_less_equal(f_load(shapes->a0 + i), f_of(groups->a1[g])) &
-                    f_less_equal(f_of(groups->a0[g]), f_load(shapes->a1 + i)) &
-                    f_less_equal(f_load(shapes->b0 + i), f_of(groups->b1[g])) &
-                    f_less_equal(f_of(groups->b0[g]), f_load(shapes->b1 + i)) &
-                    f_less_equal(f_load(shapes->near + i), f_of(groups->far[g])))
-                << i;
-    }
-    return bits;
-}
-
-/* Of the sixteen packets from `first` on, bits of those that the rectangle of one shape overlaps,
- * nearer than they look. */
-static inline unsigned tile_overlaps(
-    const Packets *packets, const Rectangles *shapes, int lane, int first) {
-    return sixteen_from(shapes->a0[lane], packets->a1 + first) &
-           sixteen_up_to(shapes->a1[lane], packets->a0 + first) &
-           sixteen_from(shapes->b0[lane], packets->b1 + first) &
-           sixteen_up_to(shapes->b1[lane], packets->b0 + first) &
-           sixteen_from(shapes->near[lane], packets->far + first);
-}
-
-/* Bits of the rays of one packet that lie in the rectangle and end behind its nearest point. */
-static inline unsigned tile_rays(const Tile *tile, const Rectangles *shapes, int lane, int packet) {
-    int i = packet * GI_PACKET_SIZE;
-    return tile->alive[packet] & sixteen_from(shapes->a0[lane], tile->a + i) &
-           sixteen_up_to(shapes->a1[lane], tile->a + i) &
-           sixteen_from(shapes->b0[lane], tile->b + i) &
-           sixteen_up_to(shapes->b1[lane], tile->b + i) &
-           sixteen_from(shapes->near[lane], tile->far + i);
-}
-
-/* Bits of the rays of one packet that may be inside of a triangle and end behind its nearest
- * corner. */
-static inline unsigned tile_rays_inside(
-    const Tile *tile, const Rectangles *shapes, const Edges *edges, int lane, int packet) {
-    int i = packet * GI_PACKET_SIZE;
-    EdgeLines lines = {{edges->x[0][lane], edges->x[1][lane], edges->x[2][lane]},
-        {edges->y[0][lane], edges->y[1][lane], edges->y[2][lane]},
-        {edges->z[0][lane], edges->z[1][lane], edges->z[2][lane]}, edges->slack[lane]};
-    return tile->alive[packet] & sixteen_inside(&lines, tile->a + i, tile->b + i) &
-           sixteen_from(shapes->near[lane], tile->far + i);
 }

@@ -7,6 +7,8 @@
 #include "shape/hit.h"
 #include "kernel/count.h"
 #include "kernel/wide.h"
+#include "kernel/wide_eight.h"
+#include "kernel/wide_packet.h"
 
 #include <string.h>
 
@@ -19,6 +21,9 @@
 #include "kernel/single.h"
 #include "kernel/many.h"
 #include "kernel/frustum.h"
+#include "kernel/decide.h"
+#include "kernel/certain.h"
+#include "kernel/inside.h"
 #include "kernel/bundle.h"
 #include "kernel/light.h"
 #include "kernel/stream.h"

@@ -34,11 +34,11 @@ typedef struct GiTraceHit {
 
 /* Up to GI_BUNDLE_SIZE rays whose lines pass through one point, traced together. Neighbours in the
  * arrays, sixteen at a time, should be neighbours in space. Two uses:
- *     closest   the rays start at the apex (camera rays)
+ *     closest   the rays start at the apex and look from t = start on (camera rays)
  *     any       the rays end there: origin + direction is the apex, t_max at most 1 (shadow rays
  *               of a point light)
- * In: everything up to skip_instance; for closest, skip and skip_instance are GI_SHAPE_NONE. Out:
- * shape (GI_SHAPE_NONE: nothing met) and, for closest, instance and t. */
+ * In: for closest the directions, start, and in t how far each ray looks; for any everything up to
+ * skip_instance. Out: shape (GI_SHAPE_NONE: nothing met) and, for closest, instance and t. */
 typedef struct GiBundle {
     _Alignas(64) double ox[GI_BUNDLE_ROOM];
     double oy[GI_BUNDLE_ROOM], oz[GI_BUNDLE_ROOM];
@@ -50,15 +50,15 @@ typedef struct GiBundle {
     uint32_t pixel[GI_BUNDLE_ROOM]; /* of camera rays; of others the caller's */
     int count;                      /* 1 to GI_BUNDLE_SIZE */
     GiVec apex;
+    double start;
     GiVec side; /* a direction the packets are aligned with; zero: none known */
     /* Asked every few thousand exact tests, when it is not null; true: the bundle may stay
      * unfinished. */
     bool (*stop)(const void *context);
     const void *stop_context;
-    /* Filled in by the kernel: 1 / d where needed, 1 / d.d, depth of the direction along the axis.
-     */
+    /* The kernel's own: 1 / d and 1 / d.d, where needed. */
     double ix[GI_BUNDLE_ROOM], iy[GI_BUNDLE_ROOM], iz[GI_BUNDLE_ROOM];
-    double inverse_square[GI_BUNDLE_ROOM], depth[GI_BUNDLE_ROOM];
+    double inverse_square[GI_BUNDLE_ROOM];
 } GiBundle;
 
 #define GI_NO_KEY UINT32_MAX

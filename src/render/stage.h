@@ -68,7 +68,7 @@ struct GiTileScratch {
     GiSegment segments[GI_POINT_LIMIT];
     GiLit lit;
     double across[GI_TILE_STRIDE], up[GI_TILE_STRIDE]; /* window coordinates of columns, rows */
-    double a[GI_BUNDLE_SIZE], b[GI_BUNDLE_SIZE];       /* ... of a bundle's rays */
+    double a[GI_BUNDLE_ROOM], b[GI_BUNDLE_ROOM];       /* ... of a bundle's rays */
     GiVec color[GI_TILE_PIXELS];                       /* of the sample being drawn */
     GiVec sum[GI_TILE_PIXELS];                         /* of the samples before */
     GiSeen *seen;                                      /* GI_TILE_PIXELS, or null */

@@ -62,8 +62,8 @@ static void trace_apart(const GiStage *stage) {
     GiTraceHit hits[GI_BUNDLE_SIZE];
     for (int i = 0; i < bundle->count; i++) {
         rays[i] = (GiTraceRay){{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
-            bundle->skip[i], bundle->skip_instance[i]};
+            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->start, INFINITY, GI_SHAPE_NONE,
+            GI_SHAPE_NONE};
     }
     world->kernel->many_closest(&world->trace, rays, bundle->count, hits);
     for (int i = 0; i < bundle->count; i++) {
@@ -127,23 +127,22 @@ static void set_rays(const GiStage *stage, const GiTileExtent *extent, int block
         int end_x = minimum(packet_x + PACKET_SIDE, extent->width);
         int end_y = minimum(packet_y + PACKET_SIDE, extent->height);
         for (int y = packet_y; y < end_y; y++) {
-            for (int x = packet_x; x < end_x; x++) {
-                scratch->a[count] = scratch->across[x];
-                scratch->b[count] = scratch->up[y];
-                bundle->pixel[count++] = (uint32_t)(y * STRIDE + x);
+            uint32_t pixel = (uint32_t)(y * STRIDE + packet_x);
+            /* A row is written as a whole, and what is too much of it is overwritten. */
+            for (int x = 0; x < PACKET_SIDE; x++) {
+                scratch->a[count + x] = scratch->across[packet_x + x];
+                scratch->b[count + x] = scratch->up[y];
+                bundle->pixel[count + x] = pixel + (uint32_t)x;
             }
+            count += end_x > packet_x ? end_x - packet_x : 0;
         }
     }
     bundle->count = count;
     bundle->apex = view->eye;
     bundle->side = view->across;
     world->kernel->view(view, scratch->a, scratch->b, bundle);
-    double begin = gi_world_eye_error(world, view->eye);
-    for (int i = 0; i < count; i++) {
-        bundle->t_min[i] = begin;
-        bundle->t_max[i] = INFINITY;
-        bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
-    }
+    bundle->start = gi_world_eye_error(world, view->eye);
+    for (int i = 0; i < count; i++) bundle->t[i] = INFINITY;
 }
 
 int gi_tile_trace_block(

@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: MIT
+ * The shapes of a leaf as the rays of a bundle see them, eight at a time, and what sixteen rays
+ * possibly or certainly meet of one, in single precision. Part of kernel.c.
+ *
+ * A sphere or a box is seen as two: one that certainly holds it, and one that it certainly holds. A
+ * ray that passes by the first misses the shape; one through the second meets it, and where it ends
+ * far enough behind, that is all a shadow ray needs to know. Only for the rays between does the
+ * exact test of `any` decide. For closest it has to give t anyhow, but is spared those that pass
+ * by.
+ *
+ * How far apart the two are. In the tree a shape is grown by 2^-19 of its largest distance from the
+ * centre; the inner one is smaller by four times that, and both allow for the apex by `margin`.
+ * What is computed here errs by roundings e = 2^-24: a vector c along u, v, w by six of |c|, as the
+ * axes are rounded too; a and b by three each. So a component of (a, b, 1) x c errs by less than 12
+ * e |c| (1 + |a| + |b|), and the distance of line and centre, which is the length of that product
+ * over the length of (a, b, 1), by less than 36 e |c|: the slack of spheres is 64 e |c|. A
+ * component of (a, b, 1) along an axis of the tree errs by less than 20 e, as |a|, |b| < 2.3; so a
+ * point at depth z of the line by 20 e z, and no z of a box is more than twice its largest
+ * coordinate, `reach`: the slack of boxes is 128 e of that. Squares and quotients add a few
+ * roundings of their own, for which there are factors of 16 e. */
+#pragma once
+
+/* ---------------------------------------------------------------- rectangles */
+
+/* Eight shapes as rectangles in the plane of the packets, with their nearest depth. */
+typedef struct Rectangles {
+    float a0[8], a1[8], b0[8], b1[8], near[8];
+} Rectangles;
+
+/* From centres and half extents along u, v, w: (x +- e) / z over all z of the shape, which is
+ * farthest out at the nearest or the farthest z. A shape that reaches the apex' own plane covers
+ * everything. Returns the bits of those that may concern the tile. */
+static inline unsigned rectangles_of(
+    const Frustum *frustum, int i, const F center[3], const F extent[3], Rectangles *rectangles) {
+    F z0 = center[2] - extent[2], z1 = center[2] + extent[2];
+    F one = f_of(1);
+    F near_scale = one / z0, far_scale = one / z1;
+    F x0 = center[0] - extent[0], x1 = center[0] + extent[0];
+    F y0 = center[1] - extent[1], y1 = center[1] + extent[1];
+    F a0 = f_min(x0 * near_scale, x0 * far_scale), a1 = f_max(x1 * near_scale, x1 * far_scale);
+    F b0 = f_min(y0 * near_scale, y0 * far_scale), b1 = f_max(y1 * near_scale, y1 * far_scale);
+    /* Rays have |a|, |b| < 2.3 (tile_packets), so this is more than their rounding. */
+    F wider = f_of(4 * GI_WIDER);
+    a0 = a0 - wider;
+    a1 = a1 + wider;
+    b0 = b0 - wider;
+    b1 = b1 + wider;
+    f_store(rectangles->a0 + i, a0);
+    f_store(rectangles->a1 + i, a1);
+    f_store(rectangles->b0 + i, b0);
+    f_store(rectangles->b1 + i, b1);
+    f_store(rectangles->near + i, z0);
+    unsigned reaching = f_less_equal(z0, f_of(frustum->far)) & f_less_equal(f_of(0), z1);
+    unsigned around = reaching & f_less_equal(z0, f_of(frustum->margin));
+    unsigned in = f_less_equal(a0, f_of(frustum->a1)) & f_less_equal(f_of(frustum->a0), a1) &
+                  f_less_equal(b0, f_of(frustum->b1)) & f_less_equal(f_of(frustum->b0), b1);
+    for (unsigned bits = around; bits != 0; bits &= bits - 1) {
+        int lane = i + lowest_bit(bits);
+        rectangles->a0[lane] = rectangles->b0[lane] = rectangles->near[lane] = -INFINITY;
+        rectangles->a1[lane] = rectangles->b1[lane] = INFINITY;
+    }
+    return ((in & reaching) | around) << i;
+}
+
+static inline unsigned tile_boxes(
+    const Frustum *frustum, const GiBoxBlock *block, Rectangles *rectangles) {
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        F middle[3], half[3], center[3], extent[3];
+        for (int axis = 0; axis < 3; axis++) {
+            F low = f_load(block->low[axis] + i), high = f_load(block->high[axis] + i);
+            middle[axis] = (low + high) * f_of(0.5f) - f_of(frustum->apex[axis]);
+            half[axis] = (high - low) * f_of(0.5f) + f_of(frustum->margin);
+        }
+        for (int row = 0; row < 3; row++) {
+            const float *n = frustum->axis[row];
+            const float size[3] = {fabsf(n[0]), fabsf(n[1]), fabsf(n[2])};
+            center[row] = frame_dot(n, middle[0], middle[1], middle[2]);
+            extent[row] = frame_dot(size, half[0], half[1], half[2]);
+        }
+        bits |= rectangles_of(frustum, i, center, extent, rectangles);
+    }
+    return bits;
+}
+
+/* Of eight shapes, bits of those that may concern the packets of a group. */
+static inline unsigned tile_group(const Groups *groups, int g, const Rectangles *shapes) {
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        bits |= (f_less_equal(f_load(shapes->a0 + i), f_of(groups->a1[g])) &
+                    f_less_equal(f_of(groups->a0[g]), f_load(shapes->a1 + i)) &
+                    f_less_equal(f_load(shapes->b0 + i), f_of(groups->b1[g])) &
+                    f_less_equal(f_of(groups->b0[g]), f_load(shapes->b1 + i)) &
+                    f_less_equal(f_load(shapes->near + i), f_of(groups->far[g])))
+                << i;
+    }
+    return bits;
+}
+
+/* Of the sixteen packets from `first` on, bits of those that the rectangle of one shape overlaps,
+ * nearer than they look. */
+static inline unsigned tile_overlaps(
+    const Packets *packets, const Rectangles *shapes, int lane, int first) {
+    return sixteen_from(shapes->a0[lane], packets->a1 + first) &
+           sixteen_up_to(shapes->a1[lane], packets->a0 + first) &
+           sixteen_from(shapes->b0[lane], packets->b1 + first) &
+           sixteen_up_to(shapes->b1[lane], packets->b0 + first) &
+           sixteen_from(shapes->near[lane], packets->far + first);
+}
+
+/* Bits of the rays of one packet that lie in the rectangle and end behind its nearest point. */
+static inline unsigned tile_rays(const Tile *tile, const Rectangles *shapes, int lane, int packet) {
+    int i = packet * GI_PACKET_SIZE;
+    return tile->alive[packet] & sixteen_from(shapes->a0[lane], tile->a + i) &
+           sixteen_up_to(shapes->a1[lane], tile->a + i) &
+           sixteen_from(shapes->b0[lane], tile->b + i) &
+           sixteen_up_to(shapes->b1[lane], tile->b + i) &
+           sixteen_from(shapes->near[lane], tile->far + i);
+}
+
+/* ---------------------------------------------------------------- what is certain */
+
+/* Sixteen rays and a shape: bits of those that possibly meet it, and of those that certainly do. */
+typedef struct Verdict {
+    unsigned maybe, sure;
+} Verdict;
+
+/* Takes what is certain, which is asked for `any` alone. Returns the bits of rays about which
+ * doubles have to decide. */
+static inline unsigned take_certain(Tile *tile, GiShapeRef ref, int packet, Verdict verdict) {
+    unsigned maybe = verdict.maybe & tile->alive[packet];
+    if (!tile->any || maybe == 0) return maybe;
+    maybe = not_sparing(tile, ref, packet, maybe);
+    unsigned sure = verdict.sure & maybe;
+    if (sure == 0) return maybe;
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
+        p_fill_where(tile->bundle->shape + packet * GI_PACKET_SIZE + j, sure >> j, ref.bits);
+    }
+    packet_stop(tile, packet, sure);
+    return maybe & ~sure;
+}
+
+/* ---------------------------------------------------------------- boxes */
+
+/* A box, relative to the apex, by what a ray's components are multiplied with to give 1 / depth: of
+ * the planes it enters through, to which `offset` is added, and of those it leaves through. */
+typedef struct BoxPlanes {
+    float enter[3], offset[3], leave[2][3];
+} BoxPlanes;
+
+/* Grown by so much on all sides. One without an inside is never met; of one round the apex the
+ * entrance is infinitely near. */
+static inline BoxPlanes box_planes(const float low[3], const float high[3], float grow) {
+    BoxPlanes planes;
+    const float least = 0x1p-60f;
+    for (int axis = 0; axis < 3; axis++) {
+        float from = low[axis] - grow, to = high[axis] + grow;
+        bool full = from < to;
+        bool before = least < from, behind = to < -least;
+        if (fabsf(from) < least) from = -least;
+        if (fabsf(to) < least) to = least;
+        planes.enter[axis] = !full ? 0 : before ? 1 / from : behind ? 1 / to : 0;
+        planes.offset[axis] = !full ? -INFINITY : before || behind ? 0 : INFINITY;
+        planes.leave[0][axis] = 1 / (before ? to : from);
+        planes.leave[1][axis] = 1 / (behind ? from : to);
+    }
+    return planes;
+}
+
+/* Bits of the rays whose lines are in the box, and 1 / depth of where they enter. */
+static inline unsigned box_meets(const BoxPlanes *planes, const P d[3], P *near) {
+    P enter = p_fused(d[0], p_of(planes->enter[0]), p_of(planes->offset[0])), leave = p_of(0);
+    for (int axis = 0; axis < 3; axis++) {
+        P plane = p_fused(d[axis], p_of(planes->enter[axis]), p_of(planes->offset[axis]));
+        enter = p_min(enter, plane);
+        leave = p_max(leave,
+            p_max(d[axis] * p_of(planes->leave[0][axis]), d[axis] * p_of(planes->leave[1][axis])));
+    }
+    *near = enter;
+    return p_less_equal(leave, enter);
+}
+
+/* Those of a block that are boxes and large, so that it pays. */
+typedef struct Boxes {
+    BoxPlanes outer[8], inner[8];
+} Boxes;
+
+/* Whether to: at a floor, but not at what is small and seen by few packets. */
+static inline bool looks_at_box(
+    const Tile *tile, GiShapeRef ref, const Rectangles *rectangles, int lane) {
+    const Frustum *frustum = &tile->frustum;
+    float width = rectangles->a1[lane] - rectangles->a0[lane];
+    float height = rectangles->b1[lane] - rectangles->b0[lane];
+    return gi_shape_kind(ref) == GI_SHAPE_BOX && 2 * width > frustum->a1 - frustum->a0 &&
+           2 * height > frustum->b1 - frustum->b0;
+}
+
+static inline float larger(float a, float b) { return a > b ? a : b; }
+
+static inline void boxes_look(
+    const Tile *tile, const GiBoxBlock *block, int lane, float near, Boxes *boxes) {
+    const Frustum *frustum = &tile->frustum;
+    float low[3], high[3], largest = 0, reach = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        float from = block->low[axis][lane], to = block->high[axis][lane];
+        largest = larger(largest, larger(fabsf(from), fabsf(to)));
+        low[axis] = from - frustum->apex[axis];
+        high[axis] = to - frustum->apex[axis];
+        reach = larger(reach, larger(fabsf(low[axis]), fabsf(high[axis])));
+    }
+    float slack = frustum->margin + reach * 0x1p-17f;
+    float growth = largest * 0x1p-19f + 0x1p-40f;
+    boxes->outer[lane] = box_planes(low, high, slack);
+    boxes->inner[lane] = box_planes(low, high, -slack - 2 * growth);
+    /* Nothing is certain of what may lie before the beginning, or of boxes without exits, where it
+     * matters which end the ray starts from. */
+    bool clear = frustum->start <= near && !tile->shapes->entering_only;
+    if (!clear) boxes->inner[lane].offset[0] = -INFINITY;
+}
+
+static inline Verdict box_verdict(const Tile *tile, const Boxes *boxes, int lane, int packet) {
+    const Frustum *frustum = &tile->frustum;
+    Verdict verdict = {0, 0};
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
+        int i = packet * GI_PACKET_SIZE + j;
+        P a = p_load(tile->a + i), b = p_load(tile->b + i), d[3], near;
+        for (int k = 0; k < 3; k++) {
+            d[k] = p_fused(a, p_of(frustum->axis[0][k]),
+                p_fused(b, p_of(frustum->axis[1][k]), p_of(frustum->axis[2][k])));
+        }
+        unsigned maybe = box_meets(&boxes->outer[lane], d, &near);
+        maybe &= p_less_equal(p_of(1 - GI_WIDER), near * p_load(tile->far + i));
+        verdict.maybe |= maybe << j;
+        if (!tile->any || maybe == 0) continue;
+        unsigned sure = box_meets(&boxes->inner[lane], d, &near);
+        sure &= p_less(p_of(1 + GI_WIDER), near * p_load(tile->surely + i));
+        verdict.sure |= sure << j;
+    }
+    return verdict;
+}
+
+/* ---------------------------------------------------------------- spheres */
+
+/* Eight spheres, relative to the apex along u, v, w, by their centres and the squares of two radii:
+ * of one that holds the sphere, and of one that is held by it. */
+typedef struct Spheres {
+    float x[8], y[8], z[8], outer[8], inner[8];
+} Spheres;
+
+static inline unsigned tile_spheres(
+    const Frustum *frustum, const GiSphereBlock *block, Rectangles *rectangles, Spheres *spheres) {
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        F x = f_load(block->center[0] + i), y = f_load(block->center[1] + i),
+          z = f_load(block->center[2] + i), radius = f_load(block->radius + i);
+        F margin = f_of(frustum->margin), wide = radius + margin;
+        F growth = f_max(f_size(x), f_max(f_size(y), f_size(z))) + radius;
+        x = x - f_of(frustum->apex[0]);
+        y = y - f_of(frustum->apex[1]);
+        z = z - f_of(frustum->apex[2]);
+        F center[3], extent[3] = {wide, wide, wide};
+        for (int row = 0; row < 3; row++) center[row] = frame_dot(frustum->axis[row], x, y, z);
+        unsigned in = rectangles_of(frustum, i, center, extent, rectangles);
+        bits |= in;
+        F slack = (f_size(center[0]) + f_size(center[1]) + f_size(center[2])) * f_of(0x1p-18f);
+        F outer = (wide + slack) * f_of(1 + 0x1p-20f);
+        F inner = radius - margin - slack - growth * f_of(0x1p-17f) - f_of(0x1p-38f);
+        inner = f_max(inner, f_of(0)) * f_of(1 - 0x1p-20f);
+        f_store(spheres->x + i, center[0]);
+        f_store(spheres->y + i, center[1]);
+        f_store(spheres->z + i, center[2]);
+        f_store(spheres->outer + i, outer * outer);
+        f_store(spheres->inner + i, inner * inner - f_of(0x1p-100f));
+        /* Out of the range of squares everything is possible. */
+        unsigned vast = in >> i & ~f_less_equal(outer + slack, f_of(0x1p40f));
+        for (; vast != 0; vast &= vast - 1) {
+            int lane = i + lowest_bit(vast);
+            spheres->x[lane] = spheres->y[lane] = spheres->z[lane] = 0;
+            spheres->outer[lane] = INFINITY;
+            spheres->inner[lane] = -1;
+        }
+    }
+    return bits;
+}
+
+static inline Verdict sphere_verdict(
+    const Tile *tile, const Spheres *spheres, int lane, float nearest, int packet) {
+    const P x = p_of(spheres->x[lane]), y = p_of(spheres->y[lane]), z = p_of(spheres->z[lane]);
+    const P outer = p_of(spheres->outer[lane]), near = p_of(nearest);
+    /* Nothing is certain of what may lie before the beginning. */
+    const P inner = p_of(tile->frustum.start <= nearest ? spheres->inner[lane] : -1);
+    Verdict verdict = {0, 0};
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
+        int i = packet * GI_PACKET_SIZE + j;
+        P a = p_load(tile->a + i), b = p_load(tile->b + i);
+        P cross_x = p_less_fused(b, z, y), cross_y = p_less_fused(a, z, x);
+        P cross_z = p_less_fused(b, x, a * y);
+        P apart = p_fused(cross_x, cross_x, p_fused(cross_y, cross_y, cross_z * cross_z));
+        P square = p_fused(a, a, p_fused(b, b, p_of(1)));
+        unsigned maybe =
+            p_less_equal(apart, square * outer) & p_less_equal(near, p_load(tile->far + i));
+        verdict.maybe |= maybe << j;
+        if (!tile->any) continue;
+        /* It is met before the point of closest approach, whose depth is along / square. */
+        P along = p_fused(a, x, p_fused(b, y, z));
+        unsigned sure = p_less_equal(apart, square * inner) &
+                        p_less(along * p_of(1 + 0x1p-18f), square * p_load(tile->surely + i));
+        verdict.sure |= sure << j;
+    }
+    return verdict;
+}
+
+/* ---------------------------------------------------------------- triangles */
+
+/* The edges of eight triangles in the plane of the packets. */
+typedef struct Edges {
+    float x[3][8], y[3][8], z[3][8], slack[8];
+} Edges;
+
+/* The places of corners: (a, b) = (x, y) / depth. A corner r away, in single precision, errs by six
+ * roundings of r in each of x, y and depth, so that with |a|, |b| <= m its place errs by less than
+ * 16 roundings of (1 + m)^2, and by `error` (1 + m) / depth for the apex. */
+static inline unsigned tile_triangles(const Frustum *frustum, const GiTriangles *triangles,
+    uint32_t first, uint32_t count, Rectangles *rectangles, Edges *edges) {
+    float corners[3][3][8];
+    seen_corners(&frustum->seen, triangles, first, count, corners);
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        F a[3], b[3], depth[3], one = f_of(1), most = f_of(0);
+        for (int k = 0; k < 3; k++) {
+            F x = f_load(corners[k][0] + i), y = f_load(corners[k][1] + i),
+              z = f_load(corners[k][2] + i);
+            depth[k] = frame_dot(frustum->axis[2], x, y, z);
+            F inverse = one / depth[k];
+            a[k] = frame_dot(frustum->axis[0], x, y, z) * inverse;
+            b[k] = frame_dot(frustum->axis[1], x, y, z) * inverse;
+            most = f_max(most, f_max(f_size(a[k]), f_size(b[k])));
+        }
+        F nearest = f_min(depth[0], f_min(depth[1], depth[2]));
+        F error = f_of(frustum->seen.error), bigger = one + most;
+        F wider = (f_of(GI_WIDER) * bigger + error / nearest) * bigger;
+        F a0 = f_min(a[0], f_min(a[1], a[2])) - wider, a1 = f_max(a[0], f_max(a[1], a[2])) + wider;
+        F b0 = f_min(b[0], f_min(b[1], b[2])) - wider, b1 = f_max(b[0], f_max(b[1], b[2])) + wider;
+        /* Six roundings of the distance, which is at most (1 + 2 m) times the depth. */
+        F near = nearest - f_of(GI_WIDER) * bigger * nearest - error;
+        f_store(rectangles->a0 + i, a0);
+        f_store(rectangles->a1 + i, a1);
+        f_store(rectangles->b0 + i, b0);
+        f_store(rectangles->b1 + i, b1);
+        f_store(rectangles->near + i, near);
+        F slack = f_of(4) * wider * ((a1 - a0) + (b1 - b0) + wider);
+        f_store(edges->slack + i, slack);
+        for (int k = 0; k < 3; k++) {
+            int next = (k + 1) % 3;
+            F x = b[k] - b[next], y = a[next] - a[k];
+            f_store(edges->x[k] + i, x);
+            f_store(edges->y[k] + i, y);
+            f_store(edges->z[k] + i, f_of(0) - (x * a[k] + y * b[k]));
+        }
+        /* What reaches behind the apex, or is far off to the side, is not in the plane. */
+        unsigned all = (1u << GI_FLOATS) - 1;
+        unsigned whole = f_less_equal(f_of(4) * error, nearest) & f_less_equal(f_of(0), nearest) &
+                         f_less_equal(most, f_of(4096));
+        unsigned in = f_less_equal(a0, f_of(frustum->a1)) & f_less_equal(f_of(frustum->a0), a1) &
+                      f_less_equal(b0, f_of(frustum->b1)) & f_less_equal(f_of(frustum->b0), b1) &
+                      f_less_equal(near, f_of(frustum->far));
+        unsigned around = ~whole & all;
+        for (unsigned rest = around; rest != 0; rest &= rest - 1) {
+            int lane = i + lowest_bit(rest);
+            rectangles->a0[lane] = rectangles->b0[lane] = rectangles->near[lane] = -INFINITY;
+            rectangles->a1[lane] = rectangles->b1[lane] = edges->slack[lane] = INFINITY;
+            for (int k = 0; k < 3; k++) {
+                edges->x[k][lane] = edges->y[k][lane] = edges->z[k][lane] = 0;
+            }
+        }
+        bits |= ((in & whole) | around) << i;
+    }
+    return bits & ((1u << count) - 1);
+}
+
+/* Bits of the rays of one packet that may be inside of a triangle and end behind its nearest
+ * corner. */
+static inline unsigned tile_rays_inside(
+    const Tile *tile, const Rectangles *shapes, const Edges *edges, int lane, int packet) {
+    int i = packet * GI_PACKET_SIZE;
+    EdgeLines lines = {{edges->x[0][lane], edges->x[1][lane], edges->x[2][lane]},
+        {edges->y[0][lane], edges->y[1][lane], edges->y[2][lane]},
+        {edges->z[0][lane], edges->z[1][lane], edges->z[2][lane]}, edges->slack[lane]};
+    return tile->alive[packet] & sixteen_inside(&lines, tile->a + i, tile->b + i) &
+           sixteen_from(shapes->near[lane], tile->far + i);
+}
