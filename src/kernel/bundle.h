@@ -84,7 +84,7 @@ static inline void tile_pairs(
 }
 
 /* After the pairs of a leaf. Finding the frustum anew takes as long as a leaf. */
-enum { EMPTIED_BATCH = 8 };
+enum { EMPTIED_BATCH = 2 };
 static inline void tile_noted(Tile *tile, int tests) {
     tile->test_count = tests;
     if (tests >= TEST_BATCH || tile->emptied >= EMPTIED_BATCH) tile_flush(tile);
