@@ -21,15 +21,11 @@ static void count_many_any(const GiTrace *trace, const GiTraceRay *rays, int cou
     for (int i = 0; i < count; i++) blocked[i] = count_any(trace, &rays[i]);
 }
 
-static GiTraceRay ray_of(const GiBundle *bundle, int i) {
-    return (GiTraceRay){{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-        {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
-        bundle->skip[i], bundle->skip_instance[i]};
-}
 
 static void count_bundle_closest(const GiTrace *trace, GiBundle *bundle) {
     for (int i = 0; i < bundle->count; i++) {
-        GiTraceRay ray = ray_of(bundle, i);
+        GiTraceRay ray = {bundle->apex, {bundle->dx[i], bundle->dy[i], bundle->dz[i]},
+            bundle->start, bundle->t[i], GI_SHAPE_NONE, GI_SHAPE_NONE};
         GiTraceHit hit;
         count_closest(trace, &ray, &hit);
         bundle->shape[i] = hit.shape.bits;
@@ -40,7 +36,9 @@ static void count_bundle_closest(const GiTrace *trace, GiBundle *bundle) {
 
 static void count_bundle_any(const GiTrace *trace, GiBundle *bundle) {
     for (int i = 0; i < bundle->count; i++) {
-        GiTraceRay ray = ray_of(bundle, i);
+        GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
+            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
+            bundle->skip[i], bundle->skip_instance[i]};
         bundle->shape[i] = count_any(trace, &ray) ? 0 : GI_SHAPE_NONE;
     }
 }

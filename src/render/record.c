@@ -103,7 +103,7 @@ void gi_record_camera(const GiStage *stage) {
         .level = 1,
         .origin = {bundle->ox[0], bundle->oy[0], bundle->oz[0]},
         .direction = {bundle->dx[0], bundle->dy[0], bundle->dz[0]},
-        .t_min = bundle->t_min[0],
+        .t_min = bundle->start,
         .factor = {1, 1, 1},
         .weight = 1,
         .triangle = GLINT_NONE};

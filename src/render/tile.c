@@ -82,8 +82,8 @@ static void trace_listed(const GiStage *stage) {
     bool last = world->rules->hit == GI_HIT_LAST;
     for (int i = 0; i < bundle->count; i++) {
         GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
-            bundle->skip[i], bundle->skip_instance[i]};
+            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->start, INFINITY, GI_SHAPE_NONE,
+            GI_SHAPE_NONE};
         GiTraceHit hit;
         uint32_t best = 0;
         bundle->shape[i] = GI_SHAPE_NONE;
