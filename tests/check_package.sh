@@ -9,7 +9,7 @@ build=$(cd "${1:-build}" && pwd) || exit 3
 source=$(cd "$(dirname "$0")/.." && pwd) || exit 3
 dir=$(mktemp -d)
 installed= # whether it is ours to remove
-names="glint glint-modules libglint0 libglint-dev python3-glint"
+names="glint glint-modules glint-window libglint0 libglint-dev python3-glint"
 clean() {
     # shellcheck disable=SC2086 # names are a list
     [ -z "$installed" ] || apt purge -y $names >/dev/null 2>&1
@@ -77,7 +77,7 @@ traces() { find /etc /opt /usr /var -name '*glint*' 2>/dev/null; }
 traces | sort >"$dir/before"
 installed=yes
 check "apt install" apt install -y --no-install-recommends "$one"/glint_*.deb \
-    "$one"/glint-modules_*.deb "$one"/libglint0_*.deb "$one"/libglint-dev_*.deb \
+    "$one"/glint-modules_*.deb "$one"/glint-window_*.deb "$one"/libglint0_*.deb "$one"/libglint-dev_*.deb \
     "$one"/python3-glint_*.deb
 
 mkdir "$dir/work" && cd "$dir/work" || exit 3
