@@ -77,8 +77,8 @@ traces() { find /etc /opt /usr /var -name '*glint*' 2>/dev/null; }
 traces | sort >"$dir/before"
 installed=yes
 check "apt install" apt install -y --no-install-recommends "$one"/glint_*.deb \
-    "$one"/glint-modules_*.deb "$one"/glint-window_*.deb "$one"/libglint0_*.deb "$one"/libglint-dev_*.deb \
-    "$one"/python3-glint_*.deb
+    "$one"/glint-modules_*.deb "$one"/glint-window_*.deb "$one"/libglint0_*.deb \
+    "$one"/libglint-dev_*.deb "$one"/python3-glint_*.deb
 
 mkdir "$dir/work" && cd "$dir/work" || exit 3
 examples=/usr/share/doc/glint/examples
