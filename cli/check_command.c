@@ -32,8 +32,8 @@ static CliStatus set_format(void *values, const char *value) {
 }
 
 static const char *rule_name_at(int index) {
-    const GlintRule *rule = glint_rule_at(index);
-    return rule != NULL ? rule->name : NULL;
+    GlintRule rule;
+    return glint_rule_at(index, &rule) ? rule.name : NULL;
 }
 
 static CliStatus set_allow(void *values, const char *value) {
@@ -42,10 +42,11 @@ static CliStatus set_allow(void *values, const char *value) {
         char word[64];
         size_t size = strcspn(name, ",");
         int index = 0;
+        GlintRule rule;
         snprintf(word, sizeof word, "%.*s", (int)size, name);
         CliStatus status = cli_value_name("allow", word, rule_name_at, &index);
         if (status != CLI_OK) return status;
-        if (glint_rule_at(index)->severity == GLINT_SEVERITY_ERROR) {
+        if (glint_rule_at(index, &rule) && rule.severity == GLINT_SEVERITY_ERROR) {
             return cli_message_usage("--allow takes warnings; '%s' is an error", word);
         }
         options->report.allowed |= UINT64_C(1) << index;

@@ -12,11 +12,20 @@
 
 int cli_check_rule_index(const char *name) {
     int scene = 0;
-    for (int i = 0; glint_rule_at(i) != NULL; i++) {
-        if (name != NULL && strcmp(glint_rule_at(i)->name, name) == 0) return i;
-        if (strcmp(glint_rule_at(i)->name, "scene") == 0) scene = i;
+    GlintRule rule;
+    for (int i = 0; glint_rule_at(i, &rule); i++) {
+        if (name != NULL && strcmp(rule.name, name) == 0) return i;
+        if (strcmp(rule.name, "scene") == 0) scene = i;
     }
     return scene;
+}
+
+/* The name of a finding's rule, and its index. */
+static const char *rule_of(const GlintDiagnostic *diagnostic, int *index) {
+    GlintRule rule = {.name = "scene"};
+    *index = cli_check_rule_index(diagnostic->rule);
+    glint_rule_at(*index, &rule);
+    return rule.name;
 }
 
 static const char *severity_name(GlintSeverity severity) {
@@ -27,9 +36,9 @@ static const char *severity_name(GlintSeverity severity) {
 }
 
 void cli_check_list_rules(void) {
-    const GlintRule *rule;
-    for (int i = 0; (rule = glint_rule_at(i)) != NULL; i++) {
-        printf("%-8s %-28s %s\n", severity_name(rule->severity), rule->name, rule->summary);
+    GlintRule rule;
+    for (int i = 0; glint_rule_at(i, &rule); i++) {
+        printf("%-8s %-28s %s\n", severity_name(rule.severity), rule.name, rule.summary);
     }
 }
 
@@ -44,7 +53,8 @@ static void begin_json(void) { printf("{\"findings\": ["); }
 
 static void add_json(const CliCheckReport *report, const GlintDiagnostic *diagnostic) {
     printf("%s\n  {", report->written > 0 ? "," : "");
-    print_member("rule", glint_rule_at(cli_check_rule_index(diagnostic->rule))->name);
+    int index;
+    print_member("rule", rule_of(diagnostic, &index));
     printf(", ");
     print_member("severity", severity_name(diagnostic->severity));
     printf(", ");
@@ -84,16 +94,16 @@ static void begin_sarif(void) {
            "    \"columnKind\": \"unicodeCodePoints\",\n"
            "    \"tool\": {\"driver\": {\"name\": \"glint\", \"version\": \"%s\", \"rules\": [",
         glint_version_text());
-    const GlintRule *rule;
-    for (int i = 0; (rule = glint_rule_at(i)) != NULL; i++) {
+    GlintRule rule;
+    for (int i = 0; glint_rule_at(i, &rule); i++) {
         printf("%s\n      {", i > 0 ? "," : "");
-        print_member("id", rule->name);
+        print_member("id", rule.name);
         printf(", ");
-        print_text_object("shortDescription", rule->summary);
+        print_text_object("shortDescription", rule.summary);
         printf(",\n        ");
-        print_text_object("help", rule->help);
+        print_text_object("help", rule.help);
         printf(",\n        \"defaultConfiguration\": {\"level\": \"%s\"}}",
-            severity_name(rule->severity));
+            severity_name(rule.severity));
     }
     printf("]}},\n    \"results\": [");
 }
@@ -114,13 +124,14 @@ static void print_uri(const char *path) {
 }
 
 static void add_sarif(const CliCheckReport *report, const GlintDiagnostic *diagnostic) {
-    int rule = cli_check_rule_index(diagnostic->rule);
+    int index;
+    const char *rule = rule_of(diagnostic, &index);
     char text[2048];
     snprintf(text, sizeof text, "%s%s%s", diagnostic->message, diagnostic->hint != NULL ? "; " : "",
         diagnostic->hint != NULL ? diagnostic->hint : "");
     printf("%s\n      {", report->written > 0 ? "," : "");
-    print_member("ruleId", glint_rule_at(rule)->name);
-    printf(", \"ruleIndex\": %d, \"level\": \"%s\",\n       ", rule,
+    print_member("ruleId", rule);
+    printf(", \"ruleIndex\": %d, \"level\": \"%s\",\n       ", index,
         severity_name(diagnostic->severity));
     print_text_object("message", text);
     printf(",\n       \"locations\": [{\"physicalLocation\": {\"artifactLocation\": {\"uri\": ");

@@ -63,7 +63,8 @@ static void print_options(const CliVerb *verb) {
         group = option->group;
         char text[64];
         option_text(option, text, sizeof text);
-        printf("  %-25s %s\n", text, option->help);
+        bool fits = strlen(text) <= 25;
+        printf("  %-25s%s%s\n", text, fits ? " " : "\n                            ", option->help);
     }
 }
 

@@ -98,6 +98,8 @@ static CliStatus choose_area(Drawing *drawing) {
     drawing->area.crop_y = stats->crop_y;
     drawing->area.crop_width = stats->crop_width;
     drawing->area.crop_height = stats->crop_height;
+    drawing->area.mistakes = options->mistakes;
+    if (recipe != NULL && options->mistakes.set == 0) drawing->area.mistakes = recipe->mistakes;
     drawing->area.monitor = &drawing->file.monitor;
     drawing->area.show = options->show;
     drawing->area.shown_range = drawing->shown_range;
@@ -233,6 +235,7 @@ static CliStatus draw(Drawing *drawing) {
     desc.dialect = drawing->options->dialect;
     desc.thread_count = drawing->options->thread_count;
     desc.isa = drawing->options->isa;
+    desc.reverse_transforms = cli_scene_file_reverses(&drawing->options->mistakes);
     desc.keep_sources = drawing->options->embed || drawing->options->light != NULL;
     refused = cli_scene_file_load(&drawing->file, &desc);
     if (refused != CLI_OK) return refused;
@@ -290,9 +293,18 @@ static CliStatus list_isa(void) {
     return cli_message_flush_output();
 }
 
+static CliStatus list_mistakes(void) {
+    for (int i = 0; i < GLINT_MISTAKE_COUNT; i++) {
+        printf(
+            "%-20s %s\n", glint_mistake_name((GlintMistake)i), glint_mistake_text((GlintMistake)i));
+    }
+    return cli_message_flush_output();
+}
+
 static CliStatus run(void *values, const CliOperands *operands) {
     const CliRenderOptions *options = values;
     if (options->list_isa) return list_isa();
+    if (options->list_mistakes) return list_mistakes();
     CliJobs jobs;
     bool shows = options->show != GLINT_SHOW_PICTURE;
     if (options->layers != 0 && (shows || options->light != NULL)) {

@@ -97,6 +97,12 @@ static CliStatus set_show(void *values, const char *value) {
     return CLI_OK;
 }
 
+static CliStatus set_break(void *values, const char *value) {
+    CliRenderOptions *options = values;
+    options->list_mistakes = strcmp(value, "list") == 0;
+    return options->list_mistakes ? CLI_OK : cli_value_mistakes("break", value, &options->mistakes);
+}
+
 static CliStatus set_embed(void *values, const char *value) {
     CliRenderOptions *options = values;
     (void)value;
@@ -162,6 +168,8 @@ const CliOption cli_render_option_table[CLI_RENDER_OPTION_COUNT] = {
         "add depth, normal, albedo, surface, lights, or all", set_layers},
     {0, "show", "WHAT", CLI_FORM_REQUIRED, picture,
         "not the picture, but what explains it (see below)", set_show},
+    {0, "break", "A,B", CLI_FORM_REQUIRED, picture,
+        "draw with typical mistakes; --break list names them", set_break},
     {0, "embed", NULL, CLI_FORM_NONE, picture, "put the scene and its files into the PNG",
         set_embed},
     {0, "dialect", "NAME", CLI_FORM_REQUIRED, picture, "follow the rules of a year (see below)",

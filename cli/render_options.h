@@ -29,10 +29,11 @@ typedef struct CliRenderOptions {
     GlintShow show;
     const char *light;          /* name or number of the one to show alone; null: all */
     const char *picture_ending; /* of a picture that is not named: ".png", ".normal.png" */
+    GlintMistakes mistakes;
     CliStatsFormat stats;
-    bool quiet, list_isa;
+    bool quiet, list_isa, list_mistakes;
     bool embed; /* the scene and its files into the PNG */
 } CliRenderOptions;
 
-enum { CLI_RENDER_OPTION_COUNT = 13 };
+enum { CLI_RENDER_OPTION_COUNT = 14 };
 extern const CliOption cli_render_option_table[CLI_RENDER_OPTION_COUNT];

@@ -116,6 +116,7 @@ CliStatus cli_scene_file_load(CliSceneFile *file, const GlintSceneDesc *desc) {
         if (opened != CLI_OK) return opened;
         path = file->unpacked.scene;
         if (own.dialect == GLINT_DIALECT_AUTO) own.dialect = file->recipe->dialect;
+        if (cli_scene_file_reverses(&file->recipe->mistakes)) own.reverse_transforms = true;
     }
     own.diagnostic = on_diagnostic;
     own.diagnostic_user = file;

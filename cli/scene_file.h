@@ -26,6 +26,11 @@ typedef struct CliSceneFile {
 void cli_scene_file_begin(
     CliSceneFile *file, const CliJob *job, int index, int count, bool with_progress);
 
+/* Whether these mistakes are to be made by a scene's desc.reverse_transforms. */
+static inline bool cli_scene_file_reverses(const GlintMistakes *mistakes) {
+    return (mistakes->set & GLINT_MISTAKE_BIT(GLINT_MISTAKE_TRANSFORMS_REVERSED)) != 0;
+}
+
 /* Creates the scene and loads it; of a picture, the scene inside, under the dialect of its recipe
  * if desc asks for none. desc: glint_scene_desc_default, with what the verb has changed; its
  * diagnostic is set here. Reports what is wrong. */

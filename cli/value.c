@@ -103,3 +103,26 @@ CliStatus cli_value_size(const char *option, const char *value, int *width, int 
         "--%s takes two numbers of pixels, such as 640x480, at most 2^28 together, not '%s'",
         option, value);
 }
+
+CliStatus cli_value_mistakes(const char *option, const char *value, GlintMistakes *mistakes) {
+    const char *wrong;
+    if (glint_mistakes_parse(value, mistakes, &wrong)) return CLI_OK;
+    char word[32];
+    GlintMistake known;
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(wrong, ",="), wrong);
+    if (glint_mistake_from_name(word, &known)) {
+        return cli_message_usage(
+            "--%s: what follows '%s' is not understood in '%s'", option, word, wrong);
+    }
+    CliSuggestion suggestion;
+    cli_suggestion_begin(&suggestion, word);
+    for (int i = 0; i < GLINT_MISTAKE_COUNT; i++) {
+        cli_suggestion_add(&suggestion, glint_mistake_name((GlintMistake)i));
+    }
+    if (suggestion.best == NULL) {
+        return cli_message_usage(
+            "--%s knows no mistake '%s'; --%s list names them", option, word, option);
+    }
+    return cli_message_usage(
+        "--%s knows no mistake '%s'; did you mean '%s'?", option, word, suggestion.best);
+}

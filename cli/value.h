@@ -24,6 +24,9 @@ CliStatus cli_value_dialect(const char *value, GlintDialect *dialect);
 CliStatus cli_value_isa(const char *value, const char **isa);
 CliStatus cli_value_threads(const char *value, int *thread_count);
 
+/* Names of mistakes with commas between them, as glint_mistakes_parse has them. */
+CliStatus cli_value_mistakes(const char *option, const char *value, GlintMistakes *mistakes);
+
 /* WxH pixels */
 CliStatus cli_value_size(const char *option, const char *value, int *width, int *height);
 

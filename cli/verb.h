@@ -50,7 +50,8 @@ typedef struct CliVerb {
 
 /* Every verb, in the order of the help. The first is what the program does when none is named. */
 #define CLI_VERB_LIST(X)                                                                           \
-    X(render) X(check) X(why) X(watch) X(verify) X(fmt) X(upgrade) X(schema) X(docs) X(completion)
+    X(render)                                                                                      \
+    X(check) X(why) X(grade) X(watch) X(verify) X(fmt) X(upgrade) X(schema) X(docs) X(completion)
 
 #define CLI_VERB_DECLARE(name) extern const CliVerb cli_verb_##name;
 CLI_VERB_LIST(CLI_VERB_DECLARE)

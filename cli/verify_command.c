@@ -114,6 +114,7 @@ static CliStatus draw_again(Verifying *verifying) {
     desc.samples = recipe->samples;
     desc.light = recipe->light;
     desc.sampling = recipe->sampling;
+    desc.mistakes = recipe->mistakes;
     desc.monitor = &file->monitor;
     size_t count = 3 * (size_t)recipe->crop_width * (size_t)recipe->crop_height;
     float *pixels = malloc(count * sizeof *pixels);
@@ -161,6 +162,7 @@ static CliStatus verify_scene(Verifying *verifying, const char *scene) {
     desc.thread_count = verifying->options->thread_count;
     desc.isa = verifying->options->isa;
     desc.dialect = verifying->recipe->dialect;
+    desc.reverse_transforms = cli_scene_file_reverses(&verifying->recipe->mistakes);
     CliStatus status = cli_scene_file_load(&verifying->file, &desc);
     if (status == CLI_OK) compare_files(verifying);
     if (status == CLI_OK && verifying->complaints > 0) status = CLI_INPUT;

@@ -8,6 +8,7 @@
 #include "verb.h"
 #include "watch/screen.h"
 #include "watch/window.h"
+#include "watch_why.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -81,8 +82,8 @@ static const char picture[] = "The picture", shown[] = "Where it is shown",
 
 static const CliOption option_table[] = {
     {0, "window", NULL, CLI_FORM_NONE, shown, "in a window", set_window},
-    {0, "terminal", "KIND", CLI_FORM_OPTIONAL, shown,
-        "in the terminal: as auto, kitty, sixel or blocks", set_terminal},
+    {0, "terminal", "auto|kitty|sixel|blocks", CLI_FORM_HIDDEN, shown,
+        "in the terminal (=auto, =kitty, =sixel or =blocks)", set_terminal},
     {0, "once", NULL, CLI_FORM_NONE, shown, "show one finished picture and end", set_once},
     {0, "size", "WxH", CLI_FORM_REQUIRED, picture, "draw W x H pixels, whatever the scene says",
         set_size},
@@ -165,7 +166,8 @@ static CliStatus run(void *values, const CliOperands *operands) {
     return show(options);
 }
 
-static Options defaults = {.session = {.dialect = GLINT_DIALECT_AUTO}};
+static Options defaults = {
+    .session = {.dialect = GLINT_DIALECT_AUTO, .explain = cli_watch_explain}};
 
 const CliVerb cli_verb_watch = {.name = "watch",
     .operands = "SCENE",

@@ -21,6 +21,7 @@ typedef struct CliWhy {
     int samples;          /* of a pixel */
     int sample;           /* in detail; from 0 */
     int region[4];        /* left, top, width, height, of the page; width 0: all */
+    GlintDialect dialect; /* asked for, or AUTO */
     int step;             /* every so many-th pixel, of the page; 0: as fits */
     GlintError error;
     FILE *out;

@@ -105,7 +105,7 @@ static const CliOption option_table[] = {
     {0, "dialect", "NAME", CLI_FORM_REQUIRED, pixel, "follow the rules of a year (see below)",
         set_dialect},
     {0, "format", "text|json|obj|html", CLI_FORM_REQUIRED, answer,
-        "obj: lines for viewers; html: a page", set_format},
+        "obj: for a viewer; html: a page to click in", set_format},
     {'o', "output", "FILE", CLI_FORM_REQUIRED, answer, "write to FILE", set_output},
     {0, "region", "X,Y,W,H", CLI_FORM_REQUIRED, answer, "html: these pixels only (default: all)",
         set_region},
@@ -168,6 +168,7 @@ static CliStatus check_place(CliWhy *why, const WhyOptions *options) {
     }
     memcpy(why->region, options->region, sizeof why->region);
     why->step = options->step;
+    why->dialect = options->dialect;
     why->sample = options->sample > 0 ? options->sample - 1 : 0;
     return CLI_OK;
 }

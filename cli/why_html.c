@@ -380,6 +380,19 @@ static GlintStatus put_picture(CliWhy *why, const float *pixels) {
 
 /* ---------------------------------------------------------------- the page */
 
+/* The options with which `glint why` tells of the same picture. */
+static void put_options(const CliWhy *why) {
+    FILE *out = why->out;
+    fputs("\"options\":\"", out);
+    if (why->desc.width > 0) fprintf(out, " --size %dx%d", why->width, why->height);
+    if (why->desc.samples > 0) fprintf(out, " --samples %d", why->desc.samples);
+    if (why->sample > 0) fprintf(out, " --sample %d", why->sample + 1);
+    if (why->dialect != GLINT_DIALECT_AUTO) {
+        fprintf(out, " --dialect %s", glint_dialect_name(why->dialect));
+    }
+    fputs("\",\n", out);
+}
+
 static void put_facts(const CliWhy *why, int step) {
     FILE *out = why->out;
     double background[3];
@@ -400,6 +413,7 @@ static GlintStatus put_page(const Page *page, int step) {
     CliWhy *why = page->why;
     fwrite(cli_why_page_head, 1, cli_why_page_head_size, why->out);
     put_facts(why, step);
+    put_options(why);
     put_shaders(why);
     put_lights(why);
     if (!put_surfaces(page)) return GLINT_ERROR_MEMORY;

@@ -246,19 +246,39 @@ static void print_layer(const CliWhy *why, const GlintExplainLayer *layer, int i
     }
 }
 
+/* Where glazing or glass ends the matter. last: the lowest layer; null: none was looked at. */
+static void print_end(
+    const CliWhy *why, const GlintExplainRay *ray, const GlintExplainLayer *last, int indent) {
+    GlintShaderDesc desc = glint_shader_desc_default();
+    glint_scene_shader(why->scene, last != NULL ? last->shader : ray->shader, &desc);
+    bool glazed = desc.type == GLINT_SHADER_GLAZED;
+    if (last == NULL && (glazed || desc.type == GLINT_SHADER_GLASS)) {
+        cli_why_line(why, indent,
+            "black: this is the deepest level, and by the rules of this "
+            "dialect glass and glazing are black there");
+    } else if (last != NULL && glazed && last->behind) {
+        cli_why_line(why, indent, "black: by the rules of this dialect glazing is, from behind");
+    } else if (last != NULL && glazed) {
+        cli_why_line(why, indent,
+            "what lies under it is not looked at: its weight is below the "
+            "limit of this dialect");
+    }
+}
+
 static void print_surface(
     const CliWhy *why, const GlintExplainSample *sample, uint32_t index, int indent) {
     const GlintExplainRay *ray = &sample->rays[index];
     cli_why_line(why, indent, "point %s, normal %s, n.v = %.6g", cli_why_vec(ray->point),
         cli_why_vec(ray->normal), ray->n_dot_v);
-    bool layered = false;
+    const GlintExplainLayer *last = NULL;
     for (size_t i = 0; i < sample->layer_count; i++) {
         if (sample->layers[i].ray != index) continue;
         print_layer(why, &sample->layers[i], indent);
-        layered = true;
+        last = &sample->layers[i];
     }
-    if (ray->lit || !layered) print_shader(why, ray, indent);
-    if (ray->n_dot_v < 0 && !layered) {
+    if (ray->lit || last == NULL) print_shader(why, ray, indent);
+    if (!ray->lit) print_end(why, ray, last, indent);
+    if (ray->n_dot_v < 0 && last == NULL) {
         cli_why_line(why, indent, "hint: n.v < 0: the ray meets the inside of the surface%s",
             ray->surface_type == GLINT_SURFACE_MESH
                 ? ", or a triangle whose corners run clockwise as seen from here"

@@ -37,8 +37,9 @@ static void close_window(void *user) {
 }
 
 static void *open_window(const char *title, char *message, size_t size) {
-    /* Signals stay the program's, and so does the processor: a picture is copied, not computed. */
+    /* Signals stay the program's; and a screen without windows is not taken over. */
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11,wayland");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     Window *window = calloc(1, sizeof *window);
     if (window == NULL || SDL_Init(SDL_INIT_VIDEO) != 0) {

@@ -58,6 +58,7 @@ class Header:
 
     def __init__(self, text: str) -> None:
         self.enums: set[str] = set()
+        self.constants: dict[str, str] = {}
         self.structs: set[str] = set()
         self.callbacks: set[str] = set()
         self.blocks: list[str] = []
@@ -71,6 +72,8 @@ class Header:
             name: re.findall(r"\bX\((\w+)", body)
             for name, body in re.findall(r"#define (\w+_LIST)\(X\)((?:.*\\\n)*.*\n)", text)
         }
+        # #define GLINT_X_ENUM(name, text) GLINT_X_##name, is what is made of them.
+        self.prefixes = dict(re.findall(r"#define (\w+)\([^)]*\) (\w+?)##", text))
         text = re.sub(r"#(?:.*\\\n)*.*\n", "", text)
         text = text.replace('extern "C" {', "")
         for statement in self.statements(text):
@@ -97,6 +100,9 @@ class Header:
             self.blocks.append(f"{match[2]} = {self.callback(match[1], match[3])}")
         elif match := re.fullmatch(r"GLINT_API (.+?)(\w+)\((.*)\)", statement):
             self.read_function(match[1], match[2], match[3])
+        elif match := re.fullmatch(r"enum \{ GLINT_(\w+) = (\d+) \}", statement):
+            self.blocks.append(f"{match[1]} = {match[2]}")
+            self.constants["GLINT_" + match[1]] = match[2]
         elif not re.fullmatch(r"typedef struct (\w+) \1", statement):  # its address is enough
             raise stop(statement)
 
@@ -104,7 +110,9 @@ class Header:
 
     def read_enum(self, name: str, body: str) -> None:
         for macro, names in self.lists.items():
-            body = re.sub(rf"{macro}\(\w+\)", ", ".join("GLINT_" + n for n in names), body)
+            for maker in re.findall(rf"{macro}\((\w+)\)", body):
+                made = ", ".join(self.prefixes[maker] + name for name in names) + ", "
+                body = body.replace(f"{macro}({maker})", made)
         members = [member.strip() for member in body.split(",") if member.strip()]
         prefix = self.prefix(name, members)
         lines, value = [f"class {name[5:]}(IntEnum):", f'    """{name} of glint.h."""\n'], -1
@@ -131,6 +139,8 @@ class Header:
     # ------------------------------------------------------------ structs
 
     def read_struct(self, name: str, body: str) -> None:
+        for constant, value in self.constants.items():
+            body = re.sub(rf"\b{constant}\b", value, body)
         declarations = [part.strip() for part in body.split(";")]
         fields = [field for declaration in declarations for field in self.fields(declaration)]
         lines = [f'        ("{field}", {kind}),' for field, kind in fields]

@@ -14,6 +14,7 @@
 #include "render/show.h"
 #include "port/machine.h"
 #include "reader/reader.h"
+#include "render/broken.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -65,6 +66,7 @@ GlintStatus glint_scene_create(const GlintSceneDesc *desc, GlintScene **result, 
     scene->diagnostic = desc->diagnostic;
     scene->diagnostic_user = desc->diagnostic_user;
     scene->keeps_sources = desc->keep_sources;
+    scene->reverses_transforms = desc->reverse_transforms;
     scene->stats.isa = kernel->name;
     if (!gi_scene_init(&scene->model, &scene->memory)) {
         glint_scene_destroy(scene);
@@ -209,6 +211,7 @@ GlintStatus glint_scene_commit(GlintScene *scene, const GlintMonitor *monitor, G
         model->dialect =
             scene->dialect != GLINT_DIALECT_AUTO ? scene->dialect : GLINT_DIALECT_GLINT;
     }
+    model->reverse_transforms = scene->reverses_transforms;
     double start = gi_machine_seconds();
     GlintStatus status = need_workers(scene, build_jobs(model), error);
     if (status == GLINT_OK) {
@@ -325,9 +328,15 @@ GlintStatus gi_scene_plan_render(GlintScene *scene, const GlintRenderDesc *desc,
     if ((unsigned)desc->show >= GLINT_SHOW_COUNT) return ARGUMENT(error, "no such thing to show");
     bool outputs = desc->depth != NULL || desc->normal != NULL || desc->albedo != NULL ||
                    desc->surface != NULL || desc->light != 0;
+    if (desc->show != GLINT_SHOW_PICTURE && desc->mistakes.set != 0) {
+        return ARGUMENT(error, "only pictures are drawn with mistakes");
+    }
     if (desc->show != GLINT_SHOW_PICTURE && outputs) {
         return ARGUMENT(error, "what is shown has no light and no outputs beside the pixels");
     }
+    fault = gi_mistake_check(&desc->mistakes, (int)scene->model.lights.count);
+    if (fault != NULL) return ARGUMENT(error, "%s", fault);
+    int samples = desc->samples != 0 ? desc->samples : scene->model.samples;
     GiCamera camera = scene->model.camera;
     if (desc->camera != NULL) {
         GlintStatus status = gi_glint_camera(desc->camera, &camera, error);
@@ -335,7 +344,7 @@ GlintStatus gi_scene_plan_render(GlintScene *scene, const GlintRenderDesc *desc,
     }
     *view = gi_view_of(&camera);
     *target = (GiRenderTarget){
-        .samples = desc->samples != 0 ? desc->samples : scene->model.samples,
+        .samples = GI_MISTAKE_HAS(&desc->mistakes, ONE_SAMPLE) ? 1 : samples,
         .view = view,
         .depth = desc->depth,
         .normal = desc->normal,
@@ -356,11 +365,11 @@ static void end_render(GlintScene *scene, double start, const GiRenderCounts *co
     scene->stats.other_rays = counts->other_rays;
 }
 
-static GlintStatus render(GlintScene *scene, const GiRenderArea *area, const GlintMonitor *monitor,
-    const GiRenderTarget *target, GlintError *error) {
+static GlintStatus render(GlintScene *scene, const GiWorld *world, const GiRenderArea *area,
+    const GlintMonitor *monitor, const GiRenderTarget *target, GlintError *error) {
     double start = gi_machine_seconds();
     GiRenderCounts counts = {0};
-    GlintStatus status = gi_render(&scene->world, scene->pool, area, monitor, target, &counts);
+    GlintStatus status = gi_render(world, scene->pool, area, monitor, target, &counts);
     end_render(scene, start, &counts);
     return status == GLINT_OK ? status
                               : gi_error_set(error, status, "%s", glint_status_text(status));
@@ -382,6 +391,35 @@ static GlintStatus show(GlintScene *scene, const GiRenderArea *area, const Glint
                               : gi_error_set(error, status, "%s", glint_status_text(status));
 }
 
+/* With the mistakes of the desc: first those of the scene, then those of the finished picture. */
+static GlintStatus render_broken(GlintScene *scene, const GiRenderArea *area,
+    const GlintRenderDesc *desc, GiRenderTarget *target, GlintError *error) {
+    bool second = (desc->mistakes.set & GI_MISTAKES_OF_PICTURE) != 0;
+    size_t size = 3 * sizeof(float) * (size_t)area->crop_width * (size_t)area->crop_height;
+    float *pixels = target->color, *first = pixels;
+    GlintStatus status = GLINT_ERROR_MEMORY;
+    GiCamera camera = scene->model.camera;
+    if (desc->camera != NULL)
+        gi_glint_camera(desc->camera, &camera, NULL); /* it has been checked */
+    target->view = NULL;                              /* but the broken world's */
+    GiBroken *broken = gi_memory_allocate(&scene->memory, sizeof *broken);
+    if (second) first = gi_memory_allocate(&scene->memory, size);
+    if (broken != NULL && first != NULL &&
+        gi_broken_init(broken, &scene->world, &camera, &desc->mistakes, area)) {
+        target->color = first;
+        status = render(scene, &broken->world, area, desc->monitor, target, error);
+        gi_broken_reset(broken);
+    } else {
+        gi_error_memory(error);
+    }
+    if (status == GLINT_OK && second) {
+        gi_mistake_apply(&desc->mistakes, area->crop_width, area->crop_height, first, pixels);
+    }
+    if (second) gi_memory_free(&scene->memory, first, size);
+    gi_memory_free(&scene->memory, broken, sizeof *broken);
+    return status;
+}
+
 GlintStatus glint_render(
     GlintScene *scene, const GlintRenderDesc *desc, float *pixels, GlintError *error) {
     if (pixels == NULL) return ARGUMENT(error, "pixels is null");
@@ -394,7 +432,8 @@ GlintStatus glint_render(
         return show(scene, &area, desc, &view, pixels, error);
     }
     target.color = pixels;
-    return render(scene, &area, desc->monitor, &target, error);
+    if (desc->mistakes.set != 0) return render_broken(scene, &area, desc, &target, error);
+    return render(scene, &scene->world, &area, desc->monitor, &target, error);
 }
 
 /* ---------------------------------------------------------------- render and save */
@@ -423,7 +462,9 @@ static GlintStatus save_meanwhile(GlintScene *scene, const GiRenderArea *area,
         .sink = gi_file_write,
         .user = file};
     GlintStatus status = gi_png_create(&scene->memory, &desc, &target->png, error);
-    if (status == GLINT_OK) status = render(scene, area, monitor, target, error);
+    if (status == GLINT_OK) {
+        status = render(scene, &scene->world, area, monitor, target, error);
+    }
     if (status == GLINT_OK) status = gi_png_finish(target->png, error);
     gi_png_destroy(target->png);
     if (status == GLINT_OK && save->monitor != NULL && save->monitor->progress != NULL) {
@@ -438,7 +479,8 @@ static GlintStatus save_meanwhile(GlintScene *scene, const GiRenderArea *area,
 static GlintStatus save_png(GlintScene *scene, const GiRenderArea *area, GiRenderTarget *target,
     const GlintRenderDesc *desc, const char *path, const GlintSaveDesc *save, GlintError *error) {
     GiFileWriter file;
-    if (save->layer_count > 0 || !gi_file_write_begin_hidden(&file, path)) {
+    if (save->layer_count > 0 || desc->mistakes.set != 0 ||
+        !gi_file_write_begin_hidden(&file, path)) {
         return save_afterwards(scene, area, desc, path, save, error);
     }
     GiImageExtras extras;

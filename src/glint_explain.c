@@ -16,6 +16,9 @@ GlintStatus glint_explain(GlintScene *scene, const GlintRenderDesc *desc,
     GiView view;
     GlintStatus status = gi_scene_plan_render(scene, desc, &area, &target, &view, error);
     if (status != GLINT_OK) return status;
+    if (desc->mistakes.set != 0) {
+        return ARGUMENT(error, "only pictures without mistakes are explained");
+    }
     status = gi_explain(&scene->world, &area, desc->monitor, &target, sink);
     return status == GLINT_OK ? status
                               : gi_error_set(error, status, "%s", glint_status_text(status));

@@ -9,6 +9,7 @@
  *     samples 16
  *     light 2                                only of one light's picture
  *     sampling random                        only when it is not sobol
+ *     broken no-shadows,light-missing=2      only of a picture with mistakes
  *     scene 1234 995dc9bbdf1939fa solids.xml
  *     mesh 5678 0123456789abcdef data/knot.ply
  *     pixels fedcba9876543210                after the pixels, a text of its own
@@ -41,7 +42,7 @@ typedef struct GiRecipe {
 } GiRecipe;
 
 static const char *const kinds[] = {"scene", "mesh", "texture", "environment"};
-enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
+enum { KIND_COUNT = sizeof kinds / sizeof kinds[0], BROKEN_LIMIT = 1024 };
 
 /* ---------------------------------------------------------------- life */
 
@@ -173,6 +174,10 @@ GlintStatus glint_scene_recipe(const GlintScene *scene, const GlintRenderDesc *d
     made->samples = desc->samples != 0 ? desc->samples : model->samples;
     made->light = desc->light;
     made->sampling = desc->sampling;
+    made->mistakes = desc->mistakes;
+    const uint64_t reversed = GLINT_MISTAKE_BIT(GLINT_MISTAKE_TRANSFORMS_REVERSED);
+    made->mistakes.set &= ~reversed;
+    if (model->reverse_transforms) made->mistakes.set |= reversed;
     GlintStatus status = GLINT_OK;
     for (size_t i = 0; i < model->files.count && status == GLINT_OK; i++) {
         const GiSceneFile *file = &model->files.data[i];
@@ -216,6 +221,11 @@ size_t glint_recipe_format(const GlintRecipe *recipe, char *buffer, size_t size)
     say(&text, "samples %d\n", recipe->samples);
     if (recipe->light != 0) say(&text, "light %d\n", recipe->light);
     if (recipe->sampling == GLINT_SAMPLING_RANDOM) say(&text, "sampling random\n");
+    if (recipe->mistakes.set != 0) {
+        char names[BROKEN_LIMIT];
+        glint_mistakes_format(&recipe->mistakes, names, sizeof names);
+        say(&text, "broken %s\n", names);
+    }
     for (int i = 0; i < recipe->file_count; i++) {
         const GlintRecipeFile *file = &recipe->files[i];
         say(&text, "%s %llu %016llx %s\n", kinds[file->kind], (unsigned long long)file->size,
@@ -305,6 +315,11 @@ static Reading take_line(GiRecipe *own, const Line *line) {
     } else if (strcmp(line->word, "sampling") == 0) {
         if (strcmp(rest, "random") != 0) return READ_UNKNOWN;
         recipe->sampling = GLINT_SAMPLING_RANDOM;
+    } else if (strcmp(line->word, "broken") == 0) {
+        char names[BROKEN_LIMIT];
+        snprintf(names, sizeof names, "%.*s", (int)line->length, line->rest);
+        const char *wrong;
+        if (!glint_mistakes_parse(names, &recipe->mistakes, &wrong)) return READ_UNKNOWN;
     } else if (strcmp(line->word, "pixels") == 0) {
         good = recipe->has_pixels = take_digest(line->rest, end, &recipe->pixels);
     } else {

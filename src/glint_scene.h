@@ -17,7 +17,7 @@ struct GlintScene {
     int thread_count;
     GlintDiagnosticFn diagnostic;
     void *diagnostic_user;
-    bool keeps_sources;
+    bool keeps_sources, reverses_transforms;
     GiSources sources;         /* of what a file has brought; all zero otherwise */
     GiFileNames missing_files; /* that the scene file names */
     bool committed, broken;    /* broken: a load or commit failed */

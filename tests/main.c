@@ -52,6 +52,9 @@
     X(explain) \
     X(tiles) \
     X(api) \
+    X(mistake) \
+    X(compare) \
+    X(grade) \
     X(load) \
     X(life) \
     X(exr) \

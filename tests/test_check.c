@@ -20,8 +20,9 @@ typedef struct Findings {
 } Findings;
 
 static int rule_index(const char *name) {
-    for (int i = 0; glint_rule_at(i) != NULL; i++) {
-        if (name != NULL && strcmp(glint_rule_at(i)->name, name) == 0) return i;
+    GlintRule rule;
+    for (int i = 0; glint_rule_at(i, &rule); i++) {
+        if (name != NULL && strcmp(rule.name, name) == 0) return i;
     }
     return -1;
 }
@@ -32,9 +33,10 @@ static void on_finding(void *user, const GlintDiagnostic *diagnostic) {
     const char *slash = strrchr(own.path, '/');
     if (slash != NULL) own.path = slash + 1;
     int rule = rule_index(own.rule);
-    CHECK(rule >= 0);
+    GlintRule said;
+    CHECK(rule >= 0 && glint_rule_at(rule, &said));
     if (rule < 0) return;
-    CHECK_INT(own.severity, glint_rule_at(rule)->severity);
+    CHECK_INT(own.severity, said.severity);
     findings->count++;
     findings->of_rule[rule]++;
     size_t room = sizeof findings->text - findings->size;
@@ -67,6 +69,16 @@ static void check_file(const char *path, bool places, Findings *findings) {
     glint_scene_destroy(scene);
 }
 
+/* Scenes with textures are errors without the modules that read these. */
+static bool skips(void) {
+#if defined(GI_BUILT_PNG) && defined(GI_BUILT_JPEG)
+    return false;
+#else
+    test_skip("Glint was built without PNG or JPEG");
+    return true;
+#endif
+}
+
 /* ---------------------------------------------------------------- examples */
 
 static bool read_text(const char *path, char *buffer, size_t size) {
@@ -89,6 +101,7 @@ static void examples(void) {
     static char expected[TEXT_SIZE];
     int seen[RULES] = {0}, count = 0;
     char folder[1024], path[1400];
+    if (skips()) return;
     snprintf(folder, sizeof folder, "%s/tests/check", test_source_dir());
     DIR *directory = opendir(folder);
     CHECK(directory != NULL);
@@ -111,10 +124,9 @@ static void examples(void) {
     }
     closedir(directory);
     CHECK(count > 20);
-    for (int i = 0; glint_rule_at(i) != NULL; i++) {
-        if (seen[i] == 0) {
-            test_fail(__FILE__, __LINE__, "no example of %s", glint_rule_at(i)->name);
-        }
+    GlintRule rule;
+    for (int i = 0; glint_rule_at(i, &rule); i++) {
+        if (seen[i] == 0) test_fail(__FILE__, __LINE__, "no example of %s", rule.name);
     }
 }
 
@@ -151,21 +163,23 @@ static void check_counts(
     snprintf(path, sizeof path, "%s/%s", root, folder);
     int scenes = walk(path, of_rule);
     if (scenes < least) test_fail(__FILE__, __LINE__, "%d scenes in %s", scenes, path);
-    for (int i = 0; glint_rule_at(i) != NULL; i++) {
+    GlintRule rule;
+    for (int i = 0; glint_rule_at(i, &rule); i++) {
         int expected = 0;
         for (int k = 0; names[k] != NULL; k++) {
-            if (strcmp(names[k], glint_rule_at(i)->name) == 0) expected = counts[k];
+            if (strcmp(names[k], rule.name) == 0) expected = counts[k];
         }
-        bool note = glint_rule_at(i)->severity == GLINT_SEVERITY_NOTE;
+        bool note = rule.severity == GLINT_SEVERITY_NOTE;
         if (note || of_rule[i] == expected) continue;
-        test_fail(__FILE__, __LINE__, "%s: %d times %s, not %d", folder, of_rule[i],
-            glint_rule_at(i)->name, expected);
+        test_fail(
+            __FILE__, __LINE__, "%s: %d times %s, not %d", folder, of_rule[i], rule.name, expected);
     }
 }
 
 static void own_scenes(void) {
     static const char *const none[] = {NULL}, *const window[] = {"stretched-window", NULL};
     static const int once[] = {1};
+    if (skips()) return;
     check_counts(test_source_dir(), "scenes", 10, none, NULL);
     check_counts(test_source_dir(), "tests/golden", 10, window, once);
 }
@@ -175,6 +189,7 @@ static void course_scenes(void) {
     static const char *const names[] = {
         "ambiguous-dialect", "unused-shader", "stretched-window", NULL};
     static const int counts[] = {14, 8, 1};
+    if (skips()) return;
     if (test_shared_dir() == NULL) {
         test_skip("there is no ../shared");
         return;

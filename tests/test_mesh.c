@@ -201,6 +201,10 @@ static void obj_attributes(void) {
         "1 0 0 n 1 2 3, 0 1 0 n 4 5 6, 0 0 1 n 7 8 9; ");
     check(GI_MESH_OBJ, VERTICES NORMALS "f 1//1 2//1 3//1\n",
         "1 0 0 n 1 2 3, 0 1 0 n 1 2 3, 0 0 1 n 1 2 3; ");
+    check(GI_MESH_OBJ, VERTICES NORMALS NORMALS NORMALS "vn 0 0 1\nf 1//10 2//2 3//3 # not 1//1\n",
+        "1 0 0 n 0 0 1, 0 1 0 n 4 5 6, 0 0 1 n 7 8 9; ");
+    check(GI_MESH_OBJ, VERTICES "vn 1 2 3\nf 1//1 2//2 3//3 # no more\n",
+        "5: face corner 2 names normal 2, but there are 1");
     check(GI_MESH_OBJ, VERTICES NORMALS "f 1//1 2 3//3\n", "1 0 0, 0 1 0, 0 0 1; ");
     check(GI_MESH_OBJ, VERTICES NORMALS "f 1//1 2 3//3\nf 1//1 2//2 3//3\nf 1 2 3//3\n",
         "1 0 0, 0 1 0, 0 0 1; 1 0 0 n 1 2 3, 0 1 0 n 4 5 6, 0 0 1 n 7 8 9; 1 0 0, 0 1 0, 0 0 1; ");

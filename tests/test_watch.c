@@ -230,10 +230,24 @@ typedef struct Show {
     char path[600];
 } Show;
 
+/* Draws itself, which is allowed while nothing else is drawn. */
+static void explain(GlintScene *scene, const GlintRenderDesc *desc, const char *name, int x, int y,
+    CliBytes *text) {
+    (void)name;
+    GlintRenderDesc pixel = *desc;
+    float color[3];
+    pixel.crop_x = x;
+    pixel.crop_y = y;
+    pixel.crop_width = pixel.crop_height = 1;
+    pixel.samples = 1;
+    CHECK_INT(glint_render(scene, &pixel, color, NULL), GLINT_OK);
+    cli_bytes_add_text(text, "asked");
+}
+
 static void begin_show(Show *show, const char *name) {
     *show = (Show){0};
     snprintf(show->path, sizeof show->path, "%s", in_folder(name));
-    CliSessionDesc desc = {.path = show->path, .thread_count = 2};
+    CliSessionDesc desc = {.path = show->path, .thread_count = 2, .explain = explain};
     rest(0.02); /* no file is so new that it may have changed after it was read */
     char message[256];
     show->session = cli_session_create(&desc, message, sizeof message);
@@ -295,20 +309,22 @@ static void draws_what_is_saved(void) {
 /* A file that the scene names counts like the scene, also when it is missing at first. */
 static void draws_what_is_named(void) {
     Show show;
-    unlink(in_folder("named.obj"));
-    write_text("named.xml", "<scene dialect='glint'><image>60 40</image>"
-                            "<camera><viewPoint>0.3 0.3 2</viewPoint></camera>"
-                            "<light type='ConstantLight'/>"
-                            "<surface type='Mesh'><data>named.obj</data></surface></scene>");
+    unlink(in_folder("named-by-a-scene.obj"));
+    write_text("named.xml",
+        "<scene dialect='glint'><image>60 40</image>"
+        "<camera><viewPoint>0.3 0.3 2</viewPoint></camera>"
+        "<light type='ConstantLight'/>"
+        "<surface type='Mesh'><data>named-by-a-scene.obj</data></surface></scene>");
     begin_show(&show, "named.xml");
     CHECK(wait_for_load(&show, 1));
     CHECK(show.frame.broken && show.frame.pixels == NULL);
-    CHECK(strstr(cli_bytes_text(&show.frame.findings), "there is no file `named.obj`") != NULL);
-    write_text("named.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    CHECK(strstr(cli_bytes_text(&show.frame.findings), "there is no file `named-by-a-scene.obj`") !=
+          NULL);
+    write_text("named-by-a-scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     CHECK(wait_for_load(&show, 2));
     CHECK(!show.frame.broken && show.frame.findings.size == 0);
     expect_picture(&show);
-    write_and_rename("named.obj", "v 0 0 0\nv 1 0 0\nv 0 0.5 0\nf 1 2 3\n");
+    write_and_rename("named-by-a-scene.obj", "v 0 0 0\nv 1 0 0\nv 0 0.5 0\nf 1 2 3\n");
     CHECK(wait_for_load(&show, 3));
     expect_picture(&show);
     end_show(&show);
@@ -435,7 +451,7 @@ static void picked(void) {
     cli_bytes_clear(&text);
     cli_session_pick(show.session, &show.frame, 0, 0.9999, &text);
     CHECK_TEXT(cli_bytes_text(&text),
-        "pixel 0,79\n  colour    0 0 0, as bytes 0 0 0\n  surface   none: the background\n");
+        "pixel 0,79\n  colour    0 0 0, as bytes 0 0 0\n  surface   none: the background\nasked");
     cli_bytes_reset(&text);
     end_show(&show);
 }
@@ -469,6 +485,17 @@ static void interrupted(void) {
         least = fmin(least, cli_clock() - asked);
     }
     CHECK(least < 0.2 * test_slowness());
+    /* A question interrupts as well, and what was interrupted goes on. */
+    CliBytes text = {0};
+    int samples = show.frame.samples;
+    cli_session_pick(show.session, &show.frame, 0.5, 0.5, &text);
+    CHECK(strstr(cli_bytes_text(&text), "asked") != NULL);
+    cli_bytes_reset(&text);
+    for (int i = 0; i < 10000 && show.frame.samples <= samples; i++) {
+        cli_session_take(show.session, &show.frame);
+        rest(0.001);
+    }
+    CHECK(show.frame.samples > samples);
     double ended = cli_clock();
     end_show(&show);
     CHECK(cli_clock() - ended < 2 * test_slowness());

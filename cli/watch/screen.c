@@ -152,6 +152,8 @@ static void add_status(Screen *screen, const CliLayout *layout) {
 
 /* ---------------------------------------------------------------- the screen */
 
+static const CliLayout nothing_drawn = {.status_row = -1};
+
 static bool same_layout(const CliLayout *a, const CliLayout *b) {
     return a->width == b->width && a->height == b->height && a->findings_row == b->findings_row &&
            a->findings_rows == b->findings_rows && a->status_row == b->status_row;
@@ -188,7 +190,7 @@ static bool go_on(Screen *screen) {
     if (!cli_control_handle(&screen->control, &input, &screen->frame)) return false;
     if (input.kind == CLI_INPUT_RESIZE) {
         cli_terminal_measure(&screen->terminal);
-        screen->layout = (CliLayout){0}; /* all is drawn anew */
+        screen->layout = nothing_drawn;
     }
     bool news = cli_session_take(screen->control.session, &screen->frame);
     if (news || input.kind == CLI_INPUT_RESIZE) {
@@ -241,7 +243,7 @@ static CliStatus run(Screen *screen, const CliScreenDesc *desc) {
 }
 
 CliStatus cli_screen_run(const CliScreenDesc *desc) {
-    Screen screen = {.path = desc->session.path};
+    Screen screen = {.path = desc->session.path, .layout = nothing_drawn};
     if (!cli_terminal_open(&screen.terminal, desc->graphics, !desc->once)) {
         cli_message_error("the terminal cannot be used: %s", strerror(errno));
         return CLI_MACHINE;

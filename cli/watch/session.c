@@ -1,24 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * Who holds what: `lock` guards requests and results; `scene_lock` the good scene and its text
- * against being replaced while another thread asks them. The drawer alone replaces them, so it
- * reads them without. Where both are held, scene_lock comes first. */
+ * The threads of a session: what they load and draw, and what they leave for others to take. */
 #define _POSIX_C_SOURCE 200809L
-#include "watch/session.h"
+#include "watch/session_state.h"
 
 #include "progress.h"
 #include "watch/camera.h"
-#include "watch/camera_text.h"
-#include "watch/files.h"
-#include "watch/pick.h"
 #include "watch/save.h"
-#include "watch/schedule.h"
 #include "watch/views.h"
 
 #include <errno.h>
-#include <math.h>
-#include <pthread.h>
 #include <signal.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,46 +18,6 @@
 static const double patience = 0.1;
 
 enum { FINDINGS_LIMIT = 16384 };
-
-typedef struct Pixels {
-    float *data;
-    size_t capacity; /* floats */
-} Pixels;
-
-struct CliSession {
-    CliSessionDesc desc;
-    char *path;
-    CliFileWatch *files;
-    pthread_t watcher, drawer;
-    bool has_watcher, has_drawer;
-    pthread_mutex_t lock, scene_lock;
-    pthread_cond_t requested;
-
-    /* Requests: set under lock, and read without by a call that may have to be given up. */
-    atomic_bool quit, reload, redraw;
-    double noticed; /* the save, for the next load */
-    double changed; /* what is to be drawn */
-    GlintCameraDesc camera;
-    int view;
-
-    /* The good scene. */
-    GlintScene *scene;
-    CliBytes text;               /* of its file */
-    GlintCameraDesc file_camera; /* under lock */
-    bool moved;                  /* camera is not that of the file; under lock */
-    double distance;             /* the last that was found; under scene_lock; 0: none */
-
-    CliFrame frame; /* its pixels go to whoever takes them */
-    bool fresh;     /* they are there */
-
-    /* The drawer's own. */
-    CliSchedule schedule;
-    CliStep step;
-    GlintCameraDesc drawn_camera;
-    int drawn_view;
-    double drawn_change, step_began, share;
-    Pixels pixels;
-};
 
 static void tell(CliSession *session) {
     if (session->desc.wake != NULL) session->desc.wake(session->desc.user);
@@ -90,7 +41,7 @@ static void on_diagnostic(void *user, const GlintDiagnostic *diagnostic) {
     free(text);
 }
 
-static GlintSceneDesc scene_desc(const CliSession *session, CliBytes *findings) {
+GlintSceneDesc cli_session_scene_desc(const CliSession *session, CliBytes *findings) {
     GlintSceneDesc desc = glint_scene_desc_default();
     desc.dialect = session->desc.dialect;
     desc.thread_count = session->desc.thread_count;
@@ -111,7 +62,7 @@ static GlintStatus read_scene(
         cli_bytes_format(findings, "%s: error: %s\n", session->path, strerror(errno));
         return GLINT_ERROR_FILE;
     }
-    GlintSceneDesc desc = scene_desc(session, findings);
+    GlintSceneDesc desc = cli_session_scene_desc(session, findings);
     GlintStatus status = glint_scene_create(&desc, scene, &error);
     if (status == GLINT_OK) {
         status = glint_scene_load_memory(
@@ -184,7 +135,8 @@ static void load(CliSession *session) {
         frame->broken = status != GLINT_OK;
         frame->saved = session->noticed;
         frame->loads++;
-        frame->number++;
+        /* What is well shows with its first picture, so that nothing flickers. */
+        if (status != GLINT_OK) frame->number++;
         pthread_mutex_unlock(&session->lock);
     }
     if (status == GLINT_OK) {
@@ -194,14 +146,14 @@ static void load(CliSession *session) {
         cli_bytes_reset(&text);
     }
     cli_bytes_reset(&findings);
-    if (!given_up) tell(session);
+    if (!given_up && status != GLINT_OK) tell(session);
 }
 
 /* ---------------------------------------------------------------- drawing */
 
 static bool step_is_old(void *user) {
     const CliSession *session = user;
-    if (load_is_old(user)) return true;
+    if (load_is_old(user) || atomic_load(&session->askers) > 0) return true;
     if (!atomic_load(&session->redraw)) return false;
     return !session->step.first || cli_clock() - session->step_began > patience;
 }
@@ -229,11 +181,11 @@ static void begin_picture(CliSession *session) {
     pthread_mutex_unlock(&session->lock);
 }
 
-static bool reserve(Pixels *pixels, size_t count) {
+static bool reserve(CliPixels *pixels, size_t count) {
     if (count <= pixels->capacity) return true;
     float *data = realloc(pixels->data, count * sizeof *data);
     if (data == NULL) return false;
-    *pixels = (Pixels){data, count};
+    *pixels = (CliPixels){data, count};
     return true;
 }
 
@@ -241,7 +193,7 @@ static void publish(CliSession *session) {
     const CliStep *step = &session->step;
     pthread_mutex_lock(&session->lock);
     CliFrame *frame = &session->frame;
-    Pixels old = {frame->pixels, frame->pixel_capacity};
+    CliPixels old = {frame->pixels, frame->pixel_capacity};
     frame->pixels = session->pixels.data;
     frame->pixel_capacity = session->pixels.capacity;
     session->pixels = old;
@@ -273,10 +225,17 @@ static void publish_failure(CliSession *session, const GlintError *error) {
     tell(session);
 }
 
-static void draw(CliSession *session) {
+/* A step that was given up for somebody who asked is drawn once more. */
+static bool next_step(CliSession *session) {
+    bool again = session->again && !atomic_load(&session->redraw);
+    session->again = false;
     begin_picture(session);
+    return again || cli_schedule_next(&session->schedule, &session->step);
+}
+
+static void draw(CliSession *session) {
     CliStep *step = &session->step;
-    if (!cli_schedule_next(&session->schedule, step)) return;
+    if (!next_step(session)) return;
     GlintMonitor monitor = {on_progress, step_is_old, session};
     GlintRenderDesc desc = glint_render_desc_default();
     desc.width = step->width;
@@ -298,9 +257,9 @@ static void draw(CliSession *session) {
         cli_schedule_measure(&session->schedule, step, taken, 1);
         publish(session);
     } else if (status == GLINT_CANCELLED) {
-        /* If it was for a scene that turns out to be wrong, this one goes on. */
+        /* If it was for a scene that turns out to be wrong, or for a question, this one goes on. */
         cli_schedule_measure(&session->schedule, step, taken, session->share);
-        atomic_store(&session->redraw, true);
+        session->again = true;
     } else {
         publish_failure(session, &error);
     }
@@ -308,20 +267,30 @@ static void draw(CliSession *session) {
 
 /* ---------------------------------------------------------------- the threads */
 
+static bool has_work(const CliSession *session) {
+    if (session->scene == NULL || atomic_load(&session->askers) > 0) return false;
+    return session->again || !session->schedule.ended || atomic_load(&session->redraw);
+}
+
 static void *draw_on(void *user) {
     CliSession *session = user;
     for (;;) {
         pthread_mutex_lock(&session->lock);
-        while (!atomic_load(&session->quit) && !atomic_load(&session->reload) &&
-               (session->scene == NULL ||
-                   (session->schedule.ended && !atomic_load(&session->redraw)))) {
+        while (
+            !atomic_load(&session->quit) && !atomic_load(&session->reload) && !has_work(session)) {
             pthread_cond_wait(&session->requested, &session->lock);
         }
         bool quits = atomic_load(&session->quit), loads = atomic_exchange(&session->reload, false);
+        session->drawing = !quits;
         pthread_mutex_unlock(&session->lock);
         if (quits) return NULL;
         if (loads) load(session);
-        if (session->scene != NULL && !load_is_old(session)) draw(session);
+        bool asked = atomic_load(&session->askers) > 0;
+        if (session->scene != NULL && !asked && !load_is_old(session)) draw(session);
+        pthread_mutex_lock(&session->lock);
+        session->drawing = false;
+        pthread_cond_broadcast(&session->answered);
+        pthread_mutex_unlock(&session->lock);
     }
 }
 
@@ -357,6 +326,7 @@ CliSession *cli_session_create(const CliSessionDesc *desc, char *message, size_t
     pthread_mutex_init(&session->lock, NULL);
     pthread_mutex_init(&session->scene_lock, NULL);
     pthread_cond_init(&session->requested, NULL);
+    pthread_cond_init(&session->answered, NULL);
     session->schedule.ended = true;
     session->changed = session->noticed = cli_clock();
     atomic_init(&session->reload, true);
@@ -393,6 +363,7 @@ void cli_session_destroy(CliSession *session) {
     free(session->pixels.data);
     free(session->path);
     pthread_cond_destroy(&session->requested);
+    pthread_cond_destroy(&session->answered);
     pthread_mutex_destroy(&session->scene_lock);
     pthread_mutex_destroy(&session->lock);
     free(session);
@@ -405,14 +376,14 @@ bool cli_session_take(CliSession *session, CliFrame *frame) {
     bool taken = session->frame.number != frame->number;
     if (taken) {
         CliBytes findings = frame->findings;
-        Pixels own = {frame->pixels, frame->pixel_capacity};
-        Pixels offered = {session->frame.pixels, session->frame.pixel_capacity};
+        CliPixels own = {frame->pixels, frame->pixel_capacity};
+        CliPixels offered = {session->frame.pixels, session->frame.pixel_capacity};
         cli_bytes_clear(&findings);
         cli_bytes_add(
             &findings, cli_bytes_text(&session->frame.findings), session->frame.findings.size);
         *frame = session->frame;
         frame->findings = findings;
-        Pixels kept = session->fresh ? offered : own, given = session->fresh ? own : offered;
+        CliPixels kept = session->fresh ? offered : own, given = session->fresh ? own : offered;
         frame->pixels = kept.data;
         frame->pixel_capacity = kept.capacity;
         session->frame.pixels = given.data;
@@ -427,157 +398,4 @@ void cli_frame_reset(CliFrame *frame) {
     free(frame->pixels);
     cli_bytes_reset(&frame->findings);
     *frame = (CliFrame){0};
-}
-
-/* ---------------------------------------------------------------- requests */
-
-static void request_picture(CliSession *session) {
-    session->changed = cli_clock();
-    atomic_store(&session->redraw, true);
-    pthread_cond_signal(&session->requested);
-}
-
-void cli_session_set_camera(CliSession *session, const GlintCameraDesc *camera) {
-    pthread_mutex_lock(&session->lock);
-    session->camera = *camera;
-    session->moved = !cli_camera_equal(camera, &session->file_camera);
-    request_picture(session);
-    pthread_mutex_unlock(&session->lock);
-}
-
-void cli_session_reset_camera(CliSession *session) {
-    pthread_mutex_lock(&session->lock);
-    if (session->moved) {
-        session->camera = session->file_camera;
-        session->moved = false;
-        request_picture(session);
-    }
-    pthread_mutex_unlock(&session->lock);
-}
-
-void cli_session_set_view(CliSession *session, int view) {
-    pthread_mutex_lock(&session->lock);
-    if (session->view != view) {
-        session->view = view;
-        request_picture(session);
-    }
-    pthread_mutex_unlock(&session->lock);
-}
-
-/* How far away is what the middle of the picture shows. */
-static double find_distance(CliSession *session, const GlintCameraDesc *camera) {
-    GlintRay ray = {.t_min = 0};
-    GlintHit hit;
-    if (glint_camera_ray(camera, 0.5, 0.5, &ray, NULL) == GLINT_OK &&
-        glint_trace(session->scene, &ray, &hit) && hit.t > 0) {
-        return session->distance = hit.t;
-    }
-    if (session->distance > 0) return session->distance;
-    /* Most scenes are about the origin. */
-    double along = 0;
-    for (int i = 0; i < 3; i++) along -= camera->view_point[i] * ray.direction[i];
-    return along > 0 && isfinite(along) ? along : 1;
-}
-
-bool cli_session_camera(CliSession *session, GlintCameraDesc *camera, double *distance) {
-    pthread_mutex_lock(&session->scene_lock);
-    bool there = session->scene != NULL;
-    if (there) {
-        pthread_mutex_lock(&session->lock);
-        *camera = session->camera;
-        pthread_mutex_unlock(&session->lock);
-        *distance = find_distance(session, camera);
-    }
-    pthread_mutex_unlock(&session->scene_lock);
-    return there;
-}
-
-static int clamp(int value, int limit) { return value < 0 ? 0 : value < limit ? value : limit - 1; }
-
-void cli_session_pick(
-    CliSession *session, const CliFrame *frame, double x, double y, CliBytes *text) {
-    if (frame->pixels == NULL) return;
-    size_t column = (size_t)clamp((int)(x * frame->width), frame->width);
-    size_t row = (size_t)clamp((int)(y * frame->height), frame->height);
-    CliPicked picked = {.width = frame->full_width,
-        .height = frame->full_height,
-        .x = clamp((int)(x * frame->full_width), frame->full_width),
-        .y = clamp((int)(y * frame->full_height), frame->full_height),
-        .color = frame->pixels + 3 * (row * (size_t)frame->width + column),
-        .camera = &frame->camera};
-    pthread_mutex_lock(&session->scene_lock);
-    if (session->scene != NULL) cli_pick_describe(session->scene, &picked, text);
-    pthread_mutex_unlock(&session->scene_lock);
-}
-
-/* ---------------------------------------------------------------- writing the camera down */
-
-/* The camera that counts: the last one, or the one that this refers to by name. */
-static bool find_camera(const CliSession *session, CliCameraText *place) {
-    GlintSource source;
-    uint32_t index1 = 0;
-    while (glint_scene_source(session->scene, GLINT_OBJECT_CAMERA, index1 + 1, &source)) index1++;
-    char name[256];
-    while (index1 > 0) {
-        glint_scene_source(session->scene, GLINT_OBJECT_CAMERA, index1, &source);
-        place->line = source.line;
-        place->column = source.column;
-        if (!cli_camera_text_ref(place, name, sizeof name)) return true;
-        do {
-            index1--;
-        } while (index1 > 0 &&
-                 (!glint_scene_source(session->scene, GLINT_OBJECT_CAMERA, index1, &source) ||
-                     strcmp(source.name, name) != 0));
-    }
-    return false;
-}
-
-/* Whether the text is a scene with this camera: the proof that it says what it should. */
-static bool is_scene_with(
-    const CliSession *session, const CliBytes *text, const GlintCameraDesc *camera) {
-    GlintSceneDesc desc = scene_desc(session, NULL);
-    GlintScene *scene = NULL;
-    GlintCameraDesc own;
-    bool good = glint_scene_create(&desc, &scene, NULL) == GLINT_OK &&
-                glint_scene_load_memory(scene, cli_bytes_text(text), text->size, session->path,
-                    NULL, NULL) == GLINT_OK &&
-                glint_scene_camera(scene, &own) && cli_camera_equal(&own, camera);
-    glint_scene_destroy(scene);
-    return good;
-}
-
-static bool save(CliSession *session, const GlintCameraDesc *before, const GlintCameraDesc *after,
-    char *message, size_t size) {
-    CliBytes changed = {0};
-    CliCameraText place = {.text = cli_bytes_text(&session->text), .size = session->text.size};
-    char reason[160] = "the camera is not found in the text of the scene";
-    bool good = find_camera(session, &place) &&
-                cli_camera_text_replace(&place, before, after, &changed, reason, sizeof reason);
-    if (good && !is_scene_with(session, &changed, after)) {
-        snprintf(reason, sizeof reason, "the scene would not say this camera afterwards");
-        good = false;
-    }
-    if (good) {
-        good = cli_scene_text_save(session->path, &session->text, &changed, message, size);
-    } else {
-        snprintf(message, size, "camera not written: %s", reason);
-    }
-    cli_bytes_reset(&changed);
-    return good;
-}
-
-bool cli_session_save_camera(CliSession *session, char *message, size_t size) {
-    pthread_mutex_lock(&session->scene_lock);
-    pthread_mutex_lock(&session->lock);
-    GlintCameraDesc before = session->file_camera, after = session->camera;
-    bool there = session->scene != NULL, moved = session->moved;
-    pthread_mutex_unlock(&session->lock);
-    bool good = false;
-    if (!there || !moved) {
-        snprintf(message, size, "the camera is the one of the file");
-    } else {
-        good = save(session, &before, &after, message, size);
-    }
-    pthread_mutex_unlock(&session->scene_lock);
-    return good;
 }

@@ -10,12 +10,17 @@
 
 typedef struct CliSession CliSession;
 
+/* Appends lines about a pixel of a picture as it was drawn with desc. */
+typedef void (*CliExplainFn)(
+    GlintScene *scene, const GlintRenderDesc *desc, const char *name, int x, int y, CliBytes *text);
+
 typedef struct CliSessionDesc {
     const char *path;
     GlintDialect dialect;
     int thread_count;           /* 0: one per core */
     const char *isa;            /* null: the fastest */
     int width, height, samples; /* 0: the scene's */
+    CliExplainFn explain;       /* what cli_session_pick adds; null: nothing */
     bool poll_only;             /* files are looked at, see cli_file_watch_create */
     /* Called on a thread of the session's when there is something new to take. */
     void (*wake)(void *user);
@@ -65,7 +70,7 @@ void cli_session_reset_camera(CliSession *session);
 void cli_session_set_view(CliSession *session, int view);
 
 /* Appends what there is to say about a place of the shown picture, from 0 to 1, from the top left.
- */
+ * A render that is under way waits meanwhile. */
 void cli_session_pick(
     CliSession *session, const CliFrame *frame, double x, double y, CliBytes *text);
 

@@ -190,7 +190,9 @@ typedef struct GlintSceneDesc {
     void *diagnostic_user;
     bool keep_sources; /* false (default); true: glint_scene_source answers. The scene file then
                           stays in memory */
-    int cookie;        /* private */
+    bool reverse_transforms; /* false (default); true: GLINT_MISTAKE_TRANSFORMS_REVERSED, which is
+                                made when the scene is committed */
+    int cookie;              /* private */
 } GlintSceneDesc;
 
 GLINT_API GlintSceneDesc glint_scene_desc_default(void);
@@ -457,6 +459,101 @@ GLINT_API GlintStatus glint_scene_load_mesh(
 GLINT_API GlintStatus glint_scene_load_environment(
     GlintScene *scene, const char *path, double scale, GlintError *error);
 
+/* ---------------------------------------------------------------- mistakes */
+
+/* Typical mistakes of ray tracers that are being written. A scene can be drawn with them on purpose
+ * (GlintRenderDesc.mistakes), and glint_grade finds out whether a picture was drawn with one. Each:
+ * constant, name, what it is. docs/grade.md says more. Those of the camera, of what rays meet, of
+ * lights and of surfaces come first; from FLIPPED on they concern the finished picture alone. */
+#define GLINT_MISTAKE_LIST(X)                                                                      \
+    X(SHIFTED, "shifted", "the picture is shifted by half a pixel: rays miss the pixels' centres") \
+    X(PIXEL_SPAN, "pixel-span", "pixels are divided by width - 1, not by width")                   \
+    X(WINDOW_SWAPPED, "window-swapped", "viewWidth and viewHeight are exchanged")                  \
+    X(WINDOW_SQUARE, "window-square", "viewHeight is ignored: the window is a square")             \
+    X(WINDOW_PIXELS, "window-pixels", "viewHeight is ignored: the window has the pixels' shape")   \
+    X(VIEW_LENGTH, "view-length", "the view direction is not normalised")                          \
+    X(UP_LENGTH, "up-length", "the camera's right and up are not normalised")                      \
+    X(UP_SKEWED, "up-skewed", "viewUp is taken as it is, not at right angles to the view")         \
+    X(WINDOW_TILT, "window-tilt", "projNormal is ignored")                                         \
+    X(WINDOW_DISTANCE, "window-distance", "projDistance is ignored")                               \
+    X(FIRST_HIT, "first-hit", "not the nearest surface is seen, but the first of the file")        \
+    X(LAST_HIT, "last-hit", "not the nearest surface is seen, but the last of the file")           \
+    X(TRANSFORMS_REVERSED, "transforms-reversed", "a group's transforms act in reverse order")     \
+    X(NORMALS_MATRIX, "normals-matrix",                                                            \
+        "normals are transformed by the matrix, not by its inverse transpose")                     \
+    X(NORMALS_LENGTH, "normals-length", "normals are not normalised")                              \
+    X(NORMALS_INWARD, "normals-inward", "normals point inward")                                    \
+    X(NORMALS_FACING, "normals-facing", "normals are turned toward the viewer")                    \
+    X(NORMALS_FLAT, "normals-flat", "the vertex normals of meshes are ignored")                    \
+    X(NO_SHADOWS, "no-shadows", "shadows are missing")                                             \
+    X(SHADOW_ACNE, "shadow-acne",                                                                  \
+        "shadow rays start without an epsilon: surfaces shadow themselves")                        \
+    X(SHADOW_BEYOND, "shadow-beyond", "surfaces behind the light cast shadows")                    \
+    X(SHADOW_REVERSED, "shadow-reversed", "shadow rays run away from the light")                   \
+    X(LIGHT_MISSING, "light-missing", "a light is missing")                                        \
+    X(LAST_LIGHT, "last-light", "only the last light counts")                                      \
+    X(NO_AMBIENT, "no-ambient", "ambient light is missing")                                        \
+    X(NO_FALLOFF, "no-falloff", "light does not fall off with the distance")                       \
+    X(FALLOFF, "falloff", "light falls off with the square of the distance, and should not")       \
+    X(FALLOFF_LINEAR, "falloff-linear", "light falls off with the distance, not with its square")  \
+    X(DIFFUSE_PI, "diffuse-pi",                                                                    \
+        "the diffuse colour has a factor 1/pi, or has none, against the year")                     \
+    X(DIFFUSE_BEHIND, "diffuse-behind", "surfaces are lit from behind: |n.l| for max(0, n.l)")     \
+    X(NO_SPECULAR, "no-specular", "highlights are missing")                                        \
+    X(SPECULAR_BEHIND, "specular-behind",                                                          \
+        "highlights are not limited to lit sides: |n.h|, any n.l")                                 \
+    X(SPECULAR_COSINE, "specular-cosine",                                                          \
+        "highlights have a factor n.l, or have none, against the year")                            \
+    X(REFLECTED_HIGHLIGHT, "reflected-highlight", "highlights use r.v (Phong), not n.h (Blinn)")   \
+    X(NO_RECURSION, "no-recursion", "mirrors, glass and paths send no rays on")                    \
+    X(TEXTURE_FLIPPED, "texture-flipped", "textures are upside down")                              \
+    X(NO_BACKGROUND, "no-background", "the background colour is missing")                          \
+    X(NO_EXPOSURE, "no-exposure", "the exposure is ignored")                                       \
+    X(ONE_SAMPLE, "one-sample", "only one sample a pixel is drawn")                                \
+    X(FLIPPED, "flipped", "the picture is upside down")                                            \
+    X(MIRRORED, "mirrored", "left and right are exchanged")                                        \
+    X(TRANSPOSED, "transposed", "rows and columns are exchanged (square pictures)")                \
+    X(BGR, "bgr", "red and blue are exchanged")                                                    \
+    X(BRIGHTNESS, "brightness", "all light has a wrong factor")                                    \
+    X(GAMMA_MISSING, "gamma-missing", "gamma is missing: linear values were written")              \
+    X(GAMMA_TWICE, "gamma-twice", "gamma is applied twice")                                        \
+    X(SRGB, "srgb", "the sRGB curve is used, not the power 2.2")                                   \
+    X(TRUNCATED, "truncated", "values are cut, not rounded, to 8 bits")                            \
+    X(WRAPPED, "wrapped", "values beyond 255 begin again at 0, and are not clamped")
+
+typedef enum GlintMistake {
+#define GLINT_MISTAKE_ENUM(constant, name, text) GLINT_MISTAKE_##constant,
+    GLINT_MISTAKE_LIST(GLINT_MISTAKE_ENUM)
+#undef GLINT_MISTAKE_ENUM
+        GLINT_MISTAKE_COUNT
+} GlintMistake;
+
+/* The bit of a mistake in a set. */
+#define GLINT_MISTAKE_BIT(mistake) (UINT64_C(1) << (mistake))
+
+/* Mistakes to make together, and how far they go. All zero: none. */
+typedef struct GlintMistakes {
+    uint64_t set;         /* of GLINT_MISTAKE_BIT */
+    int light;            /* LIGHT_MISSING: which, from 1 in the order of the scene; 0: the first */
+    int shift_x, shift_y; /* SHIFTED: half pixels that the picture moves to the right and down, -4
+                             to 4; both 0: 1 and -1, as when rays pass the pixels' lower left
+                             corners */
+    double factor;        /* BRIGHTNESS, to nine digits after the point; 0: 1/2 */
+} GlintMistakes;
+
+/* The name used in options ("no-shadows"), and what it is in a sentence. Null out of range. */
+GLINT_API const char *glint_mistake_name(GlintMistake mistake);
+GLINT_API const char *glint_mistake_text(GlintMistake mistake);
+/* The opposite. False, and *mistake untouched, when there is no such name. */
+GLINT_API bool glint_mistake_from_name(const char *name, GlintMistake *mistake);
+
+/* Mistakes as text: names with commas between them, and where it is not the usual, how far they go:
+ * "no-shadows,light-missing=2", "shifted=1:-1", "brightness=0.25". At most size bytes are written,
+ * always zero-terminated when size > 0; returns the length without the cut. */
+GLINT_API size_t glint_mistakes_format(const GlintMistakes *mistakes, char *buffer, size_t size);
+/* The opposite, added to *mistakes. False when it is not understood; *wrong is then where. */
+GLINT_API bool glint_mistakes_parse(const char *text, GlintMistakes *mistakes, const char **wrong);
+
 /* ---------------------------------------------------------------- commit, render, trace */
 
 /* Builds the tree. After it the scene is immutable and may be traced from many threads at once.
@@ -528,6 +625,10 @@ typedef struct GlintRenderDesc {
     GlintShow show;      /* PICTURE */
     double *shown_range; /* null (default), or where to put two numbers: of DEPTH the distances that
                           * are white and black, of COST 0 and what is white */
+    /* To draw wrongly on purpose; none (default). Those of the finished picture change colours
+     * only, not depth and the like, and count from the corner of the part that is drawn.
+     * TRANSFORMS_REVERSED is asked of the scene's desc, and ignored here. */
+    GlintMistakes mistakes;
     int cookie;
 } GlintRenderDesc;
 
@@ -794,8 +895,9 @@ typedef struct GlintRule {
     const char *help;    /* why it is told, and what to do: sentences */
 } GlintRule;
 
-/* Every rule, those of errors first; null behind the last. Lives for ever. */
-GLINT_API const GlintRule *glint_rule_at(int index);
+/* The rule at an index from 0 on, those of errors first. False behind the last. All texts live as
+ * long as the program. */
+GLINT_API bool glint_rule_at(int index, GlintRule *rule);
 
 /* Looks for what is legal in a committed scene but surely a mistake, and reports it through the
  * scene's diagnostic callback, on this thread, in the order of the file: warnings and notes, never
@@ -837,6 +939,7 @@ typedef struct GlintRecipe {
     int crop_x, crop_y, crop_width, crop_height;
     int samples, light; /* as in GlintRenderDesc */
     GlintSampling sampling;
+    GlintMistakes mistakes;       /* with TRANSFORMS_REVERSED, which a scene's desc asks for */
     bool has_pixels;              /* of a picture that was finished */
     uint64_t pixels;              /* CRC-64/XZ of its 8-bit values, top row first */
     const GlintRecipeFile *files; /* the scene's own first; none of a scene built by calls */
@@ -904,6 +1007,13 @@ GLINT_API size_t glint_recipe_format(const GlintRecipe *recipe, char *buffer, si
 GLINT_API GlintStatus glint_image_digest(
     const GlintImage *image, uint64_t *digest, GlintError *error);
 GLINT_API GlintStatus glint_picture_digest(const char *path, uint64_t *digest, GlintError *error);
+
+/* Reads a picture: .png and .jpeg (any kind of pixels; 8 bits count, transparency does not), .pfm,
+ * .exr (stored in rows; R, G and B or Y). The first bytes of the file tell the format. 8-bit values
+ * become the linear ones that glint_image_save writes as the same values again. image->pixels is
+ * freed with glint_image_free. Errors: ARGUMENT, FILE (also a missing module), MEMORY. */
+GLINT_API GlintStatus glint_image_load(const char *path, GlintImage *image, GlintError *error);
+GLINT_API void glint_image_free(GlintImage *image); /* of glint_image_load; all zero is allowed */
 
 /* The 8-bit values that the PNG would hold: width * height * 3 bytes. */
 GLINT_API void glint_image_to_rgb8(const GlintImage *image, uint8_t *rgb);
@@ -1042,6 +1152,99 @@ GLINT_API GlintStatus glint_upgrade(const void *bytes, size_t size, const char *
  * that is replaced keeps its permissions, a link its place. Errors: ARGUMENT, FILE, MEMORY. */
 GLINT_API GlintStatus glint_file_save(
     const char *path, const void *bytes, size_t size, GlintError *error);
+/* ---------------------------------------------------------------- comparing and grading */
+
+typedef struct GlintCompareDesc {
+    int tolerance; /* a pixel differs when a channel is apart by more, of 255; 0 to 255; 2 */
+    /* How large pixels are to the eye: 67.02 (default) is a screen 3840 pixels wide, seen from as
+     * far as it is wide. 1 to 1000. */
+    double pixels_per_degree;
+    bool flip;         /* true (default); false: GlintComparison.flip is not worked out, and 0 */
+    float *flip_map;   /* null, or where to put the FLIP error of each pixel: width * height */
+    float *difference; /* null, or where to put a picture, width * height * 3 linear values, whose
+                          8-bit values are 8 times as large as the differences */
+    int cookie;
+} GlintCompareDesc;
+
+GLINT_API GlintCompareDesc glint_compare_desc_default(void);
+
+/* Of the 8-bit values that glint_image_to_rgb8 gives, but for relative. */
+typedef struct GlintComparison {
+    int max;         /* the largest difference of a channel, 0 to 255 */
+    double mean;     /* of all channels' differences */
+    double percent;  /* of the pixels with a channel that differs by more than the tolerance */
+    double relative; /* mean difference of linear values over the mean of the reference's */
+    double flip;     /* mean FLIP error, 0 to 1: how far apart they look (Andersson et al. 2020) */
+} GlintComparison;
+
+/* Compares a picture with the reference, which is of the same size. Errors: ARGUMENT (also two
+ * sizes), MEMORY. */
+GLINT_API GlintStatus glint_image_compare(const GlintImage *image, const GlintImage *reference,
+    const GlintCompareDesc *desc, GlintComparison *comparison, GlintError *error);
+
+/* One or two mistakes that were tried, and what they explain: 1 minus the sum of the differences
+ * beyond the tolerance that are left, over that of the picture without mistakes. */
+typedef struct GlintHypothesis {
+    GlintMistakes mistakes;
+    double explains; /* 1: all; 0 or less: nothing */
+} GlintHypothesis;
+
+typedef enum GlintVerdict {
+    GLINT_VERDICT_SAME,      /* all 8-bit values are equal */
+    GLINT_VERDICT_ROUNDING,  /* none differs by more than the tolerance, or isolated pixels do, and
+                                no mistake explains these */
+    GLINT_VERDICT_EXPLAINED, /* the first hypothesis explains the difference, and no other does */
+    GLINT_VERDICT_UNCLEAR    /* none explains most of it, or several do about equally well */
+} GlintVerdict;
+
+/* "same", "rounding", "explained", "unclear"; null out of range. */
+GLINT_API const char *glint_verdict_name(GlintVerdict verdict);
+
+enum { GLINT_HYPOTHESIS_LIMIT = 8 };
+
+typedef struct GlintGrade {
+    GlintVerdict verdict;
+    GlintComparison comparison; /* with the right picture */
+    /* What explains most, best first. ROUNDING: TRUNCATED where that explains it. UNCLEAR: the
+     * first `rivals` of them are about equally good. */
+    GlintHypothesis hypotheses[GLINT_HYPOTHESIS_LIMIT];
+    int hypothesis_count, rivals;
+    int tried, pairs_tried; /* mistakes, and pairs of them */
+    bool from_scene;        /* false: the reference is a picture, so mistakes of a finished
+                               picture alone were tried */
+    bool size_differs;      /* the picture has not the size it should have; then all the rest is
+                               about a right picture of its size */
+    int width, height;      /* as it should be */
+    GlintImage reference;   /* the right picture, at the size of the picture; to be freed with
+                               glint_image_free */
+} GlintGrade;
+
+typedef struct GlintGradeDesc {
+    GlintSceneDesc scene; /* for the scene, when the reference is one */
+    GlintCompareDesc compare;
+    int width, height;           /* of the picture that was asked for; 0 (default): the scene's */
+    int samples;                 /* likewise */
+    bool pairs;                  /* true (default); false: one mistake at a time */
+    const GlintMonitor *monitor; /* null; the fraction is of GLINT_PHASE_TRACE */
+    int cookie;
+} GlintGradeDesc;
+
+GLINT_API GlintGradeDesc glint_grade_desc_default(void);
+
+/* Finds out how a picture differs from what it should be and which mistake, or which two, explain
+ * it, by drawing the scene with each of them. reference is a scene, or a picture (.png, .jpg,
+ * .jpeg, .pfm, .exr). Errors: ARGUMENT, FILE, SCENE, MEMORY, THREAD, CANCELLED. */
+GLINT_API GlintStatus glint_grade(const GlintImage *image, const char *reference,
+    const GlintGradeDesc *desc, GlintGrade *grade, GlintError *error);
+
+/* What was found, in one sentence without a full stop: "shadows are missing (no-shadows): explains
+ * 97 % of the difference". At most size bytes are written, always zero-terminated when size > 0.
+ * Returns the length without the cut. */
+GLINT_API size_t glint_grade_format(const GlintGrade *grade, char *buffer, size_t size);
+
+/* The same of the mistakes of one hypothesis. */
+GLINT_API size_t glint_hypothesis_format(
+    const GlintHypothesis *hypothesis, char *buffer, size_t size);
 
 #ifdef __cplusplus
 }

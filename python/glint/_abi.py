@@ -152,6 +152,7 @@ class GlintSceneDesc(Structure):
         ("diagnostic", GlintDiagnosticFn),
         ("diagnostic_user", c_void_p),
         ("keep_sources", c_bool),
+        ("reverse_transforms", c_bool),
         ("cookie", c_int),
     ]
     _enums_ = {"dialect": Dialect}
@@ -370,6 +371,71 @@ class GlintSurfaceDesc(Structure):
     _enums_ = {"type": SurfaceType}
 
 
+class Mistake(IntEnum):
+    """GlintMistake of glint.h."""
+
+    SHIFTED = 0
+    PIXEL_SPAN = 1
+    WINDOW_SWAPPED = 2
+    WINDOW_SQUARE = 3
+    WINDOW_PIXELS = 4
+    VIEW_LENGTH = 5
+    UP_LENGTH = 6
+    UP_SKEWED = 7
+    WINDOW_TILT = 8
+    WINDOW_DISTANCE = 9
+    FIRST_HIT = 10
+    LAST_HIT = 11
+    TRANSFORMS_REVERSED = 12
+    NORMALS_MATRIX = 13
+    NORMALS_LENGTH = 14
+    NORMALS_INWARD = 15
+    NORMALS_FACING = 16
+    NORMALS_FLAT = 17
+    NO_SHADOWS = 18
+    SHADOW_ACNE = 19
+    SHADOW_BEYOND = 20
+    SHADOW_REVERSED = 21
+    LIGHT_MISSING = 22
+    LAST_LIGHT = 23
+    NO_AMBIENT = 24
+    NO_FALLOFF = 25
+    FALLOFF = 26
+    FALLOFF_LINEAR = 27
+    DIFFUSE_PI = 28
+    DIFFUSE_BEHIND = 29
+    NO_SPECULAR = 30
+    SPECULAR_BEHIND = 31
+    SPECULAR_COSINE = 32
+    REFLECTED_HIGHLIGHT = 33
+    NO_RECURSION = 34
+    TEXTURE_FLIPPED = 35
+    NO_BACKGROUND = 36
+    NO_EXPOSURE = 37
+    ONE_SAMPLE = 38
+    FLIPPED = 39
+    MIRRORED = 40
+    TRANSPOSED = 41
+    BGR = 42
+    BRIGHTNESS = 43
+    GAMMA_MISSING = 44
+    GAMMA_TWICE = 45
+    SRGB = 46
+    TRUNCATED = 47
+    WRAPPED = 48
+    COUNT = 49
+
+
+class GlintMistakes(Structure):
+    _fields_ = [
+        ("set", c_uint64),
+        ("light", c_int),
+        ("shift_x", c_int),
+        ("shift_y", c_int),
+        ("factor", c_double),
+    ]
+
+
 class GlintSceneInfo(Structure):
     _fields_ = [
         ("dialect", c_int),
@@ -422,6 +488,7 @@ class GlintRenderDesc(Structure):
         ("camera", POINTER(GlintCameraDesc)),
         ("show", c_int),
         ("shown_range", c_void_p),
+        ("mistakes", GlintMistakes),
         ("cookie", c_int),
     ]
     _enums_ = {"sampling": Sampling, "show": Show}
@@ -706,6 +773,7 @@ class GlintRecipe(Structure):
         ("samples", c_int),
         ("light", c_int),
         ("sampling", c_int),
+        ("mistakes", GlintMistakes),
         ("has_pixels", c_bool),
         ("pixels", c_uint64),
         ("files", POINTER(GlintRecipeFile)),
@@ -837,6 +905,77 @@ class GlintUpgradeDesc(Structure):
     _enums_ = {"dialect": Dialect}
 
 
+class GlintCompareDesc(Structure):
+    _fields_ = [
+        ("tolerance", c_int),
+        ("pixels_per_degree", c_double),
+        ("flip", c_bool),
+        ("flip_map", c_void_p),
+        ("difference", c_void_p),
+        ("cookie", c_int),
+    ]
+
+
+class GlintComparison(Structure):
+    _fields_ = [
+        ("max", c_int),
+        ("mean", c_double),
+        ("percent", c_double),
+        ("relative", c_double),
+        ("flip", c_double),
+    ]
+
+
+class GlintHypothesis(Structure):
+    _fields_ = [
+        ("mistakes", GlintMistakes),
+        ("explains", c_double),
+    ]
+
+
+class Verdict(IntEnum):
+    """GlintVerdict of glint.h."""
+
+    SAME = 0
+    ROUNDING = 1
+    EXPLAINED = 2
+    UNCLEAR = 3
+
+
+HYPOTHESIS_LIMIT = 8
+
+
+class GlintGrade(Structure):
+    _fields_ = [
+        ("verdict", c_int),
+        ("comparison", GlintComparison),
+        ("hypotheses", GlintHypothesis * 8),
+        ("hypothesis_count", c_int),
+        ("rivals", c_int),
+        ("tried", c_int),
+        ("pairs_tried", c_int),
+        ("from_scene", c_bool),
+        ("size_differs", c_bool),
+        ("width", c_int),
+        ("height", c_int),
+        ("reference", GlintImage),
+    ]
+    _enums_ = {"verdict": Verdict}
+
+
+class GlintGradeDesc(Structure):
+    _fields_ = [
+        ("scene", GlintSceneDesc),
+        ("compare", GlintCompareDesc),
+        ("width", c_int),
+        ("height", c_int),
+        ("samples", c_int),
+        ("pairs", c_bool),
+        ("monitor", POINTER(GlintMonitor)),
+        ("cookie", c_int),
+    ]
+
+
 # name: what it returns, what it takes
 FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "glint_status_text": (c_char_p, [c_int]),
@@ -881,6 +1020,11 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "glint_scene_load_mesh": (c_int, [c_void_p, c_char_p, POINTER(GlintMeshId),
         POINTER(GlintError)]),
     "glint_scene_load_environment": (c_int, [c_void_p, c_char_p, c_double, POINTER(GlintError)]),
+    "glint_mistake_name": (c_char_p, [c_int]),
+    "glint_mistake_text": (c_char_p, [c_int]),
+    "glint_mistake_from_name": (c_bool, [c_char_p, c_void_p]),
+    "glint_mistakes_format": (c_size_t, [POINTER(GlintMistakes), c_char_p, c_size_t]),
+    "glint_mistakes_parse": (c_bool, [c_char_p, POINTER(GlintMistakes), POINTER(c_char_p)]),
     "glint_scene_commit": (c_int, [c_void_p, POINTER(GlintMonitor), POINTER(GlintError)]),
     "glint_scene_info": (None, [c_void_p, POINTER(GlintSceneInfo)]),
     "glint_scene_camera": (c_bool, [c_void_p, POINTER(GlintCameraDesc)]),
@@ -896,7 +1040,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "glint_scene_light": (c_bool, [c_void_p, c_uint32, POINTER(GlintLightDesc)]),
     "glint_scene_background": (c_bool, [c_void_p, c_void_p]),
     "glint_scene_stats": (None, [c_void_p, POINTER(GlintStats)]),
-    "glint_rule_at": (POINTER(GlintRule), [c_int]),
+    "glint_rule_at": (c_bool, [c_int, POINTER(GlintRule)]),
     "glint_scene_check": (c_int, [c_void_p, POINTER(GlintMonitor), POINTER(GlintError)]),
     "glint_save_desc_default": (GlintSaveDesc, []),
     "glint_image_save": (c_int, [POINTER(GlintImage), c_char_p, POINTER(GlintSaveDesc),
@@ -913,6 +1057,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "glint_recipe_format": (c_size_t, [POINTER(GlintRecipe), c_char_p, c_size_t]),
     "glint_image_digest": (c_int, [POINTER(GlintImage), c_void_p, POINTER(GlintError)]),
     "glint_picture_digest": (c_int, [c_char_p, c_void_p, POINTER(GlintError)]),
+    "glint_image_load": (c_int, [c_char_p, POINTER(GlintImage), POINTER(GlintError)]),
+    "glint_image_free": (None, [POINTER(GlintImage)]),
     "glint_image_to_rgb8": (None, [POINTER(GlintImage), c_void_p]),
     "glint_element_at": (c_bool, [c_int, POINTER(GlintElement)]),
     "glint_element_type_at": (c_bool, [c_int, POINTER(GlintElementType)]),
@@ -926,4 +1072,13 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "glint_upgrade": (c_int, [c_void_p, c_size_t, c_char_p, POINTER(GlintUpgradeDesc), GlintSinkFn,
         c_void_p, c_void_p, POINTER(GlintError)]),
     "glint_file_save": (c_int, [c_char_p, c_void_p, c_size_t, POINTER(GlintError)]),
+    "glint_compare_desc_default": (GlintCompareDesc, []),
+    "glint_image_compare": (c_int, [POINTER(GlintImage), POINTER(GlintImage),
+        POINTER(GlintCompareDesc), POINTER(GlintComparison), POINTER(GlintError)]),
+    "glint_verdict_name": (c_char_p, [c_int]),
+    "glint_grade_desc_default": (GlintGradeDesc, []),
+    "glint_grade": (c_int, [POINTER(GlintImage), c_char_p, POINTER(GlintGradeDesc),
+        POINTER(GlintGrade), POINTER(GlintError)]),
+    "glint_grade_format": (c_size_t, [POINTER(GlintGrade), c_char_p, c_size_t]),
+    "glint_hypothesis_format": (c_size_t, [POINTER(GlintHypothesis), c_char_p, c_size_t]),
 }

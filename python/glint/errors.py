@@ -39,7 +39,7 @@ class Diagnostic:
     caret_length: int
     """At least 1."""
     rule: str | None
-    """The name of the rule of glint check that found it; None for none."""
+    """The name of the rule, such as "light-inside-solid"."""
     hint: str | None
     """How to mend it; None where there is nothing to say."""
     text: str

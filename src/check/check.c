@@ -14,8 +14,10 @@ static const GlintRule rules[] = {
 #undef RULE_ROW
 };
 
-const GlintRule *glint_rule_at(int index) {
-    return index >= 0 && index < GI_CHECK_COUNT ? &rules[index] : NULL;
+bool glint_rule_at(int index, GlintRule *rule) {
+    if (index < 0 || index >= GI_CHECK_COUNT) return false;
+    *rule = rules[index];
+    return true;
 }
 
 /* ---------------------------------------------------------------- findings */

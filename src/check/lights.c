@@ -136,15 +136,18 @@ static void report_reach(GiCheck *check, size_t index) {
         "the light adds nothing: what the camera sees turns its back to it or lies in its shadow");
 }
 
-/* Each light alone, small; where that is black, once more and larger. Of very many lights the first
- * are looked at. */
+/* Each light alone, very small; where that is black, once more and larger. Of very many lights the
+ * first are looked at. */
 static void check_reach(GiCheck *check, const bool *settled) {
-    enum { SMALL = 64, LARGE = 384, LOOKS = 256 };
+    static const int sides[] = {16, 64, 384};
+    enum { SIDES = sizeof sides / sizeof *sides, LOOKS = 256 };
     size_t count = check->scene->lights.count;
     if (!check->in_view || !any_needs_light(check)) return;
     for (size_t i = 0; i < count && i < LOOKS && !gi_check_stopped(check); i++) {
         if (settled[i] || gi_check_is_full(check, GI_CHECK_LIGHT_REACHES)) continue;
-        if (is_dark(check, i, SMALL) && is_dark(check, i, LARGE)) report_reach(check, i);
+        bool dark = true;
+        for (int k = 0; k < SIDES && dark; k++) dark = is_dark(check, i, sides[k]);
+        if (dark) report_reach(check, i);
     }
 }
 

@@ -25,8 +25,10 @@ static bool matte_differs(const GiUpgrade *upgrade) {
 
 /* The diffuseColor of a Lambertian that says none. */
 static void default_diffuse(const GiUpgrade *upgrade, char *text, size_t size) {
-    const char *gray = upgrade->from->default_diffuse == 1 ? "1 1 1" : "0.2 0.2 0.2";
-    snprintf(text, size, "<diffuseColor>%s</diffuseColor>", gray);
+    const double gray = upgrade->from->default_diffuse, color[3] = {gray, gray, gray};
+    char numbers[GI_UPGRADE_TEXT_SIZE];
+    gi_upgrade_format(color, numbers);
+    snprintf(text, size, "<diffuseColor>%s</diffuseColor>", numbers);
 }
 
 /* ---------------------------------------------------------------- matte */
@@ -38,11 +40,20 @@ static void tell_noise(GiUpgrade *upgrade, size_t token) {
         "directions are drawn in another way here: the noise is another, the mean the same");
 }
 
+/* Under large lights alone nothing is rewritten, and one thing differs. */
+static void tell_behind(GiUpgrade *upgrade, size_t token) {
+    if (!upgrade->has_large || upgrade->from->black_from_behind == upgrade->to->black_from_behind) {
+        return;
+    }
+    gi_upgrade_note(upgrade, GLINT_CHANGE_DIFFERENT, token,
+        "where it is seen from behind it was black and now reflects light");
+}
+
 static void upgrade_lambertian(GiUpgrade *upgrade, size_t token) {
     const GiToken *start = &upgrade->document->tokens.data[token];
     bool bsdf = start->type->context == GI_IN_LAMBERTIAN_BSDF;
     bool given = bsdf || has(upgrade, token, GI_SLOT_DIFFUSE);
-    char diffuse[80];
+    char diffuse[GI_UPGRADE_TEXT_SIZE + 40];
     default_diffuse(upgrade, diffuse, sizeof diffuse);
     const char *name = gi_upgrade_name(upgrade, token);
     if (matte_differs(upgrade)) {
@@ -67,22 +78,21 @@ static void upgrade_lambertian(GiUpgrade *upgrade, size_t token) {
         gi_upgrade_note(
             upgrade, GLINT_CHANGE_SAME, token, "the diffuseColor that it has is now said");
     }
-    if (upgrade->has_large && upgrade->from->black_from_behind) {
-        gi_upgrade_note(upgrade, GLINT_CHANGE_DIFFERENT, token,
-            "where it is seen from behind it was black and now reflects light");
-    }
+    tell_behind(upgrade, token);
 }
 
 void gi_upgrade_surface(GiUpgrade *upgrade, size_t token) {
     const GiDocument *document = upgrade->document;
     for (size_t i = gi_document_first_child(document, token); i != GI_NO_TOKEN;
          i = gi_document_next_child(document, i)) {
-        GiKind kind = document->tokens.data[i].element->kind;
-        if (kind == GI_KIND_SHADER || kind == GI_KIND_BSDF) return;
+        const GiElement *element = document->tokens.data[i].element;
+        if (element == NULL) continue;
+        if (element->kind == GI_KIND_SHADER || element->kind == GI_KIND_BSDF) return;
     }
     bool facets = matte_differs(upgrade);
+    if (!facets) tell_behind(upgrade, token);
     if (!facets && upgrade->from->default_diffuse == upgrade->to->default_diffuse) return;
-    char diffuse[80], shader[300];
+    char diffuse[GI_UPGRADE_TEXT_SIZE + 40], shader[GI_UPGRADE_TEXT_SIZE + 200];
     default_diffuse(upgrade, diffuse, sizeof diffuse);
     snprintf(shader, sizeof shader, "<shader type=\"%s\">%s%s</shader>",
         facets ? "MicrofacetBeckmann" : "Lambertian", diffuse,

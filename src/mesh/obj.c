@@ -300,6 +300,22 @@ static bool read_index(
         gi_mesh_quote(first, p).text, negative ? so_far : total, negative ? " so far" : "");
 }
 
+/* Whether all of a corner is an index that was just read, from `word` to p, and // and the same
+ * digits: mostly a vertex has a normal of its own. It need not be so where this says no. */
+static inline bool repeats_index(const char *word, const char *p, const char *end) {
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    ptrdiff_t length = p - word;
+    if (length > 8 || end - p < 10 || *word == '-' || p[0] != '/' || p[1] != '/') return false;
+    uint64_t first, second;
+    memcpy(&first, word, sizeof first);
+    memcpy(&second, p + 2, sizeof second);
+    return (first ^ second) << (64 - 8 * length) == 0 && is_word_end(p + 2 + length, end);
+#else
+    (void)word, (void)p, (void)end;
+    return false;
+#endif
+}
+
 /* a, a/b, a//c or a/b/c; b and c may be empty. */
 static inline bool read_corner(Parser *parser, int number, Corner *corner) {
     const char *end = parser->end, *word = parser->p;
@@ -307,6 +323,11 @@ static inline bool read_corner(Parser *parser, int number, Corner *corner) {
     if (!read_index(parser, "vertex", number, parser->at.positions, parser->total.positions,
             &corner->position)) {
         return false;
+    }
+    if (repeats_index(word, parser->p, end) && corner->position < parser->total.normals) {
+        corner->other[NORMAL] = corner->position;
+        parser->p += 2 + (parser->p - word);
+        return true;
     }
     if (parser->p < end && *parser->p == '/') {
         parser->p++;

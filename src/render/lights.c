@@ -20,7 +20,7 @@ static inline void add_point(const GiStage *stage, int i, GiVec light) {
 bool gi_lights_gloss(const GiRules *rules, const GiShader *shader, GiGloss *gloss) {
     bool phong = shader->type == GLINT_SHADER_PHONG;
     if (!phong && shader->type != GLINT_SHADER_LAMBERTIAN) return false;
-    if (shader->texture != GI_NONE) return false;
+    if (shader->texture != GI_NONE || rules->odd_shading) return false;
     unsigned exponent = 0;
     if (phong) {
         if (!(shader->exponent >= 0 && shader->exponent <= 1024)) return false;
@@ -70,7 +70,35 @@ static void light_segment(const GiStage *stage, const GiLight *light, const GiSe
     }
 }
 
+/* What a shadow ray becomes in a program with mistakes. False: it is not traced at all. */
+static bool spoil_shadow_ray(const GiRules *rules, GiTraceRay *ray) {
+    if (rules->shadows == GI_SHADOWS_MISSING) return false;
+    if (rules->shadows == GI_SHADOWS_BEYOND) ray->t_max = INFINITY;
+    if (rules->shadows == GI_SHADOWS_REVERSED) ray->direction = gi_negate(ray->direction);
+    return true;
+}
+
+/* As gi_lights_trace, for shadows that are wrong: one ray at a time. */
+static void trace_spoiled(const GiStage *stage, GiVec light) {
+    const GiPoints *points = &stage->scratch->points;
+    GiLit *lit = &stage->scratch->lit;
+    const GiWorld *world = stage->world;
+    for (int k = 0; k < lit->count; k++) {
+        if (k % 1024 == 0 && gi_stage_stopped(stage)) return;
+        uint32_t i = lit->point[k];
+        GiVec origin = point_at(points, (int)i);
+        GiTraceRay ray = {origin, gi_sub(light, origin), lit->t_min[i], 1, points->skip[i],
+            points->skip_instance[i]};
+        lit->arrives[i] =
+            !spoil_shadow_ray(world->rules, &ray) || !world->kernel->any(&world->trace, &ray);
+    }
+}
+
 void gi_lights_trace(const GiStage *stage, GiVec light) {
+    if (stage->world->rules->shadows != GI_SHADOWS_CAST) {
+        trace_spoiled(stage, light);
+        return;
+    }
     GiTileScratch *scratch = stage->scratch;
     GiBundle *bundle = &scratch->bundle;
     const GiPoints *points = &scratch->points;
@@ -153,8 +181,12 @@ typedef struct BeamBatch {
 
 static void flush_beams(const GiStage *stage, BeamBatch *batch) {
     const GiWorld *world = stage->world;
-    bool blocked[BEAMS_TOGETHER];
-    world->kernel->many_any(&world->trace, batch->ray, batch->count, blocked);
+    bool blocked[BEAMS_TOGETHER] = {false};
+    bool traced = true;
+    for (int k = 0; k < batch->count && world->rules->shadows != GI_SHADOWS_CAST; k++) {
+        traced = spoil_shadow_ray(world->rules, &batch->ray[k]);
+    }
+    if (traced) world->kernel->many_any(&world->trace, batch->ray, batch->count, blocked);
     stage->counts->shadow_rays += (uint64_t)batch->count;
     for (int k = 0; k < batch->count; k++) {
         if (!blocked[k]) add_point(stage, batch->point[k], batch->light[k]);

@@ -248,6 +248,7 @@ static GiVec texture_color(const GiWorld *world, const Met *met, GiVec point, ui
     const GiTexture *texture = &world->scene->textures.data[index];
     double uv[2];
     gi_shape_texcoord(&world->shapes, met->shape, met->instance, point, uv);
+    if (world->rules->texture_flipped) uv[1] = 1 - uv[1];
     return gi_texture_color(
         &world->scene->pictures.data[texture->picture], texture->wrap, uv[0], uv[1]);
 }
@@ -299,8 +300,13 @@ static bool is_plain(const GiWorld *world, const GiShader *shader) {
 }
 
 static inline GiSurfacePoint point_of(const GiWorld *world, const Met *met) {
-    return gi_shape_point(&world->shapes, met->shape, met->instance, met->origin, met->direction,
-        met->t, world->rules->cone_geometric);
+    GiSurfacePoint at = gi_shape_point(&world->shapes, met->shape, met->instance, met->origin,
+        met->direction, met->t, world->rules->cone_geometric);
+    if (world->shapes.normal_faults != 0) {
+        gi_shape_spoil_normal(
+            &world->shapes, met->shape, met->instance, met->origin, met->direction, &at);
+    }
+    return at;
 }
 
 /* Keeps what a camera ray met, for pictures of it. */
@@ -353,6 +359,9 @@ static inline void meet_plain(const GiStage *stage, uint32_t i, uint32_t shader_
     GiVec direction = gi_vec(bundle->dx[i], bundle->dy[i], bundle->dz[i]);
     GiSurfacePoint at = gi_shape_point(&world->shapes, shape, bundle->instance[i], origin,
         direction, bundle->t[i], world->rules->cone_geometric);
+    if (world->shapes.normal_faults != 0) {
+        gi_shape_spoil_normal(&world->shapes, shape, bundle->instance[i], origin, direction, &at);
+    }
     uint32_t pixel = bundle->pixel[i];
     show_first(stage, pixel, shine_of(stage, shader, at.normal));
     if (scratch->seen != NULL) {
@@ -401,7 +410,8 @@ static void meet_group(const GiStage *stage, uint32_t key, const uint32_t *rays,
     uint32_t index = key >> KEY_KIND_BITS, kind = key & ((1 << KEY_KIND_BITS) - 1);
     const GiShader *shader = &stage->world->scene->shaders.data[index];
     bool plain = is_plain(stage->world, shader);
-    bool dark = plain && shader->type != GLINT_SHADER_RGB_NORMALS && scratch->seen == NULL;
+    bool dark = plain && shader->type != GLINT_SHADER_RGB_NORMALS && scratch->seen == NULL &&
+                stage->world->shapes.normal_faults == 0;
     if (dark && kind != GI_SHAPE_PLACED) {
         meet_dark(stage, rays, count, index);
         return;

@@ -73,6 +73,33 @@ static void trace_apart(const GiStage *stage) {
     }
 }
 
+/* What a program sees that does not look for the nearest of all surfaces: of those on the ray, each
+ * where it is met first, the first or the last of the file. The rays go from hit to hit. */
+static void trace_listed(const GiStage *stage) {
+    enum { HIT_LIMIT = 1000 };
+    const GiWorld *world = stage->world;
+    GiBundle *bundle = &stage->scratch->bundle;
+    bool last = world->rules->hit == GI_HIT_LAST;
+    for (int i = 0; i < bundle->count; i++) {
+        GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
+            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
+            bundle->skip[i], bundle->skip_instance[i]};
+        GiTraceHit hit;
+        uint32_t best = 0;
+        bundle->shape[i] = GI_SHAPE_NONE;
+        for (int k = 0; k < HIT_LIMIT && world->kernel->closest(&world->trace, &ray, &hit); k++) {
+            uint32_t order = gi_shape_info(&world->shapes, hit.shape, hit.instance)->order;
+            if (k == 0 || (last ? order > best : order < best)) {
+                best = order;
+                bundle->shape[i] = hit.shape.bits;
+                bundle->t[i] = hit.t;
+                bundle->instance[i] = hit.instance;
+            }
+            ray.t_min = hit.t;
+        }
+    }
+}
+
 void gi_tile_aim(const GiStage *stage, const GiRenderArea *area, const GiTileExtent *extent,
     double offset_x, double offset_y) {
     GiTileScratch *scratch = stage->scratch;
@@ -125,7 +152,9 @@ int gi_tile_trace_block(
     GiBundle *bundle = &stage->scratch->bundle;
     if (gi_stage_stopped(stage)) return 0;
     set_rays(stage, extent, block_x, block_y);
-    if (gi_stage_view(stage)->parallel) {
+    if (world->rules->hit != GI_HIT_NEAREST) {
+        trace_listed(stage);
+    } else if (gi_stage_view(stage)->parallel) {
         trace_apart(stage);
     } else {
         world->kernel->bundle_closest(&world->trace, bundle);

@@ -5,6 +5,17 @@
 
 #include "glint/glint.h"
 
+/* What shadow rays do. */
+typedef enum GiShadowRule {
+    GI_SHADOWS_CAST,
+    GI_SHADOWS_MISSING,
+    GI_SHADOWS_BEYOND,  /* surfaces behind the light count */
+    GI_SHADOWS_REVERSED /* the rays run the other way */
+} GiShadowRule;
+
+/* Which of the surfaces on a ray of the camera is seen. */
+typedef enum GiHitRule { GI_HIT_NEAREST, GI_HIT_FIRST, GI_HIT_LAST } GiHitRule;
+
 typedef struct GiRules {
     const char *name;
     bool falloff;               /* point lights fall off with the square of the distance */
@@ -28,6 +39,15 @@ typedef struct GiRules {
     int last_level;          /* deepest level shaded; camera rays are level 1 */
     bool area_light_visible; /* rectangle lights are surfaces too */
     bool environment_lights; /* the environment lights surfaces */
+    /* Those of no year, but of programs with mistakes (render/broken.c). */
+    bool odd_shading; /* one of the four that follow, which the kernels do not know */
+    bool falloff_linear;
+    bool diffuse_behind;      /* |n.l|, not max(0, n.l) */
+    bool specular_behind;     /* |n.h| */
+    bool reflected_highlight; /* r.v, not n.h (Phong 1975) */
+    bool texture_flipped;
+    GiShadowRule shadows;
+    GiHitRule hit;
 } GiRules;
 
 /* The row of a dialect other than AUTO. */

@@ -261,6 +261,7 @@ bool gi_scene_group_contains(const GiScene *scene, uint32_t group, uint32_t inne
 bool gi_scene_group_matrix(
     const GiScene *scene, const GiGroup *group, const GiRules *rules, GiAffine *matrix) {
     GiAffine product = gi_affine_identity, inverse;
+    bool first_listed_first = rules->first_listed_first != scene->reverse_transforms;
     for (size_t i = 0; i < group->steps.count; i++) {
         const GiTransformStep *step = &group->steps.data[i];
         GiAffine next;
@@ -270,8 +271,8 @@ bool gi_scene_group_matrix(
         case GI_STEP_SCALE: next = gi_affine_scale(step->value); break;
         default: next = scene->matrices.data[(size_t)step->value.x]; break;
         }
-        product = rules->first_listed_first ? gi_affine_multiply(&next, &product)
-                                            : gi_affine_multiply(&product, &next);
+        product = first_listed_first ? gi_affine_multiply(&next, &product)
+                                     : gi_affine_multiply(&product, &next);
     }
     *matrix = product;
     return gi_affine_invert(&product, &inverse);

@@ -88,7 +88,8 @@ typedef GI_ARRAY(GiShapeInfo) GiShapeInfos;
 
 typedef struct GiScene {
     GiMemory *memory;
-    GlintDialect dialect; /* AUTO until known */
+    GlintDialect dialect;    /* AUTO until known */
+    bool reverse_transforms; /* a mistake: groups turn round what the dialect says */
     bool has_image, has_camera;
     int width, height, samples;
     GiVec back_color;

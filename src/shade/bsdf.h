@@ -87,7 +87,6 @@ typedef struct GiLayerNote {
 typedef struct GiScatterNotes {
     int count;
     GiLayerNote layers[GI_SUBSTRATE_LIMIT + 2];
-    bool ends; /* rules->glass_ends: all is black at the last level */
 } GiScatterNotes;
 
 typedef struct GiScatter {

@@ -148,9 +148,8 @@ void gi_bsdf_scatter(
     scatter->local_factor = gray(0);
     scatter->count = 0;
     scatter->notes = notes;
-    if (notes != NULL) notes->count = 0, notes->ends = false;
+    if (notes != NULL) notes->count = 0;
     if (is_transparent(layer.shader) && rules->glass_ends && arrival->level >= rules->last_level) {
-        if (notes != NULL) notes->ends = true;
         return;
     }
     for (int depth = 0; layer.shader->type == GLINT_SHADER_GLAZED; depth++) {

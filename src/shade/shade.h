@@ -25,8 +25,22 @@ static inline double gi_shade_diffuse_factor(const GiRules *rules) {
     return rules->diffuse_over_pi ? 0.31830988618379067 : 1;
 }
 
+/* What of n.l counts for the diffuse term. */
+static inline double gi_shade_cosine(const GiRules *rules, double nl) {
+    return rules->diffuse_behind ? fabs(nl) : gi_shade_positive(nl);
+}
+
 static inline GiVec gi_shade_lambertian(const GiShader *shader, const GiRules *rules, double nl) {
-    return gi_scale(shader->diffuse, gi_shade_diffuse_factor(rules) * gi_shade_positive(nl));
+    return gi_scale(shader->diffuse, gi_shade_diffuse_factor(rules) * gi_shade_cosine(rules, nl));
+}
+
+/* The cosine whose power is the highlight. */
+static inline double gi_shade_highlight_cosine(const GiRules *rules, GiVec n, GiVec v, GiVec l) {
+    GiVec h = gi_normalize(gi_add(l, v));
+    if (!rules->odd_shading) return gi_shade_positive(gi_dot(n, h));
+    GiVec r = gi_sub(gi_scale(n, 2 * gi_dot(n, l)), l);
+    double cosine = rules->reflected_highlight ? gi_dot(r, v) : gi_dot(n, h);
+    return rules->specular_behind ? fabs(cosine) : gi_shade_positive(cosine);
 }
 
 /* Blinn (1977). */
@@ -34,11 +48,10 @@ static inline GiLobes gi_shade_phong(
     const GiShader *shader, const GiRules *rules, GiVec n, GiVec v, GiVec l) {
     double nl = gi_dot(n, l);
     GiLobes lobes = {{0, 0, 0}, {0, 0, 0}, 0, 0, 0};
+    lobes.diffuse = gi_shade_lambertian(shader, rules, nl);
     if (rules->highlight_needs_light && nl <= 0) return lobes;
-    GiVec h = gi_normalize(gi_add(l, v));
-    double highlight = gi_pow(gi_shade_positive(gi_dot(n, h)), shader->exponent);
+    double highlight = gi_pow(gi_shade_highlight_cosine(rules, n, v, l), shader->exponent);
     double cosine = gi_shade_positive(nl);
-    lobes.diffuse = gi_scale(shader->diffuse, gi_shade_diffuse_factor(rules) * cosine);
     lobes.highlight =
         gi_scale(shader->specular, rules->phong_cosine ? highlight * cosine : highlight);
     return lobes;
@@ -53,6 +66,7 @@ static inline bool gi_shade_light_falls(const GiLight *light, const GiRules *rul
 /* E of a point light at the given squared distance. */
 static inline GiVec gi_shade_light(
     const GiLight *light, const GiRules *rules, double distance_square) {
-    return gi_shade_light_falls(light, rules) ? gi_scale(light->intensity, 1 / distance_square)
-                                              : light->intensity;
+    if (!gi_shade_light_falls(light, rules)) return light->intensity;
+    double fall = rules->falloff_linear ? sqrt(distance_square) : distance_square;
+    return gi_scale(light->intensity, 1 / fall);
 }

@@ -197,6 +197,20 @@ static GiSurfacePoint flat_point(GiVec point, GiVec normal, GiVec p) {
         gi_largest(gi_sub(p, point)));
 }
 
+/* Of the vertices, by the parts that they have in the point. False: there are none. */
+static inline bool blend_normals(
+    const GiShapes *shapes, uint32_t triangle, const double part[3], GiVec *blend) {
+    const GiTriangles *triangles = &shapes->triangles;
+    const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, triangle)];
+    uint32_t row[3];
+    *blend = gi_vec(0, 0, 0);
+    if (!gi_triangle_normals(shapes, triangle, mesh, row)) return false;
+    for (int i = 0; i < 3; i++) {
+        *blend = gi_along(*blend, corner_vec(triangles->normals[row[i]]), part[i]);
+    }
+    return !gi_vec_is_zero(*blend);
+}
+
 static GiSurfacePoint triangle_point(
     const GiShapes *shapes, uint32_t triangle, GiVec origin, GiVec direction) {
     const GiTriangles *triangles = &shapes->triangles;
@@ -220,15 +234,8 @@ static GiSurfacePoint triangle_point(
     }
     GiVec geometric = gi_normalize(triangle_normal(corners));
     GiSurfacePoint at = facing(p, geometric, size);
-    const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, triangle)];
-    uint32_t row[3];
-    if (gi_triangle_normals(shapes, triangle, mesh, row)) {
-        GiVec blend = {0, 0, 0};
-        for (int i = 0; i < 3; i++) {
-            blend = gi_along(blend, corner_vec(triangles->normals[row[i]]), part[i]);
-        }
-        if (!gi_vec_is_zero(blend)) at.normal = gi_normalize(blend);
-    }
+    GiVec blend;
+    if (blend_normals(shapes, triangle, part, &blend)) at.normal = gi_normalize(blend);
     return at;
 }
 
@@ -309,6 +316,49 @@ GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref, uint32_t i
     for (int i = count; i-- > 0;) leave(transforms[i], &at);
     at.error *= GI_SURFACE_ERROR;
     return at;
+}
+
+/* How long a normal is where nobody normalises it. Origin and direction are in object space. */
+static double length_of_normal(
+    const GiShapes *shapes, GiShapeRef ref, GiVec origin, GiVec direction) {
+    if (gi_shape_kind(ref) == GI_SHAPE_SPHERE) return shapes->spheres[gi_shape_index(ref)].radius;
+    if (gi_shape_kind(ref) != GI_SHAPE_TRIANGLE) return 1;
+    GiVec blend;
+    const GiTriangles *triangles = &shapes->triangles;
+    const gi_hit_Ray ray = {.ox = origin.x,
+        .oy = origin.y,
+        .oz = origin.z,
+        .dx = direction.x,
+        .dy = direction.y,
+        .dz = direction.z};
+    gi_hit_Weights weights = gi_hit_weights(triangles, gi_shape_index(ref), &ray);
+    double scale = 1 / (weights.u + weights.v + weights.w);
+    const double part[3] = {weights.u * scale, weights.v * scale, weights.w * scale};
+    return blend_normals(shapes, gi_shape_index(ref), part, &blend) ? gi_length(blend) : 1;
+}
+
+/* The right normal is taken back into object space first. */
+void gi_shape_spoil_normal(const GiShapes *shapes, GiShapeRef ref, uint32_t instance, GiVec origin,
+    GiVec direction, GiSurfacePoint *at) {
+    const GiTransform *transforms[2];
+    int count = transforms_of(shapes, ref, instance, transforms);
+    unsigned faults = shapes->normal_faults;
+    GiVec n = faults & GI_NORMAL_FLAT ? at->geometric : at->normal, seen_along = direction;
+    for (int i = 0; i < count; i++) {
+        enter(transforms[i], &origin, &direction);
+        n = gi_normalize(gi_affine_transposed_vector(&transforms[i]->to_world, n));
+    }
+    if (faults & GI_NORMAL_LENGTH) {
+        GiShapeRef own = gi_shape_unplaced(shapes, ref);
+        n = gi_scale(n, length_of_normal(shapes, own, origin, direction));
+    }
+    for (int i = count; i-- > 0;) {
+        n = faults & GI_NORMAL_MATRIX ? gi_affine_vector(&transforms[i]->to_world, n)
+                                      : gi_affine_transposed_vector(&transforms[i]->to_object, n);
+        if (!(faults & GI_NORMAL_LENGTH)) n = gi_normalize(n);
+    }
+    if ((faults & GI_NORMAL_FACING) && gi_dot(n, seen_along) > 0) n = gi_negate(n);
+    at->normal = faults & GI_NORMAL_INWARD ? gi_negate(n) : n;
 }
 
 /* ---------------------------------------------------------------- texture coordinates */

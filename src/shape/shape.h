@@ -115,6 +115,15 @@ typedef struct GiInstance {
     uint32_t transform;
 } GiInstance;
 
+/* Normals as programs with mistakes have them: a set. */
+typedef enum GiNormalFault {
+    GI_NORMAL_INWARD = 1 << 0,
+    GI_NORMAL_FACING = 1 << 1, /* turned toward the viewer */
+    GI_NORMAL_FLAT = 1 << 2,   /* those of the vertices are ignored */
+    GI_NORMAL_LENGTH = 1 << 3, /* not normalised */
+    GI_NORMAL_MATRIX = 1 << 4  /* transformed as directions are */
+} GiNormalFault;
+
 /* The arrays that refs index, with the one rule that changes where rays meet shapes. */
 typedef struct GiShapes {
     const GiSphere *spheres;
@@ -131,7 +140,8 @@ typedef struct GiShapes {
     const GiTransform *transforms;
     const GiInstance *instances;
     const GiShapeInfo *info[GI_SHAPE_KIND_COUNT]; /* parallel to the arrays of each kind */
-    bool entering_only; /* boxes do without their exits, cylinders without exits through caps */
+    bool entering_only;     /* boxes do without their exits, cylinders without exits through caps */
+    unsigned normal_faults; /* a set of GiNormalFault; the kernels do not know them */
 } GiShapes;
 
 /* Height of the apex above the centre plane; infinite for a cylinder. */
@@ -234,6 +244,10 @@ typedef struct GiSurfacePoint {
 
 GiSurfacePoint gi_shape_point(const GiShapes *shapes, GiShapeRef ref, uint32_t instance,
     GiVec origin, GiVec direction, double t, bool second_nappe_geometric);
+
+/* Puts the normal as normal_faults have it in the place of the right one, of the same ray. */
+void gi_shape_spoil_normal(const GiShapes *shapes, GiShapeRef ref, uint32_t instance, GiVec origin,
+    GiVec direction, GiSurfacePoint *at);
 
 /* Texture coordinates by a sphere's unit normal. */
 void gi_sphere_texcoord(GiVec normal, double uv[2]);

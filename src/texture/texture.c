@@ -73,10 +73,10 @@ static const Format formats[] = {
     {"jpeg", "read JPEG pictures", "\xff\xd8\xff"},
 };
 
-static const Format *format_of(const Bytes *bytes) {
+static const Format *format_of(const void *bytes, size_t size) {
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
         size_t length = strlen(formats[i].magic);
-        if (bytes->size >= length && memcmp(bytes->data, formats[i].magic, length) == 0) {
+        if (size >= length && memcmp(bytes, formats[i].magic, length) == 0) {
             return &formats[i];
         }
     }
@@ -100,9 +100,10 @@ static uint8_t *begin_picture(void *user, int width, int height) {
     return picture.rgb;
 }
 
-static GlintStatus decode(
-    GiPicture *picture, GiMemory *memory, const Bytes *bytes, GlintError *error) {
-    const Format *format = format_of(bytes);
+GlintStatus gi_picture_decode(
+    GiPicture *picture, GiMemory *memory, const void *bytes, size_t size, GlintError *error) {
+    const Format *format = format_of(bytes, size);
+    *picture = (GiPicture){0};
     if (format == NULL) {
         return gi_error_set(error, GLINT_ERROR_FILE, "this is neither a PNG nor a JPEG picture");
     }
@@ -115,7 +116,7 @@ static GlintStatus decode(
         char message[200] = "";
         Target target = {picture, memory};
         GiDecoderTarget there = {begin_picture, &target, message, sizeof message};
-        status = decoder->decode(bytes->data, bytes->size, &there);
+        status = decoder->decode(bytes, size, &there);
         if (status == GLINT_ERROR_MEMORY) gi_error_memory(error);
         if (status == GLINT_ERROR_FILE) gi_error_set(error, status, "%s", message);
     } else {
@@ -123,6 +124,7 @@ static GlintStatus decode(
             "Glint cannot %s: its module is of another version", format->purpose);
     }
     gi_module_close(&module);
+    if (status != GLINT_OK) gi_picture_free(picture, memory);
     return status;
 }
 
@@ -133,11 +135,8 @@ GlintStatus gi_picture_load(
     *picture = (GiPicture){0};
     GlintStatus status = read_file(&bytes, memory, path, error);
     if (status == GLINT_OK) {
-        status = decode(picture, memory, &bytes, &reason);
-        if (status != GLINT_OK) {
-            gi_error_set_path(error, status, path, "%s", reason.message);
-            gi_picture_free(picture, memory);
-        }
+        status = gi_picture_decode(picture, memory, bytes.data, bytes.size, &reason);
+        if (status != GLINT_OK) gi_error_set_path(error, status, path, "%s", reason.message);
     }
     gi_memory_free(memory, bytes.data, bytes.capacity);
     return status;

@@ -19,6 +19,10 @@ typedef enum GiWrap { GI_WRAP_REPEAT, GI_WRAP_CLAMP } GiWrap;
 GlintStatus gi_picture_load(
     GiPicture *picture, GiMemory *memory, const char *path, GlintError *error);
 
+/* The same of a file's bytes. The message has no path. */
+GlintStatus gi_picture_decode(
+    GiPicture *picture, GiMemory *memory, const void *bytes, size_t size, GlintError *error);
+
 void gi_picture_free(GiPicture *picture, GiMemory *memory);
 
 /* The colour at u (to the right) and v (up), with no filter; bytes 0 to 255 become 0 to 1, linear.

@@ -4,6 +4,7 @@
 import ctypes
 import enum
 import os
+import itertools
 import re
 import shutil
 import subprocess
@@ -42,13 +43,18 @@ def c_name(kind):
     return kind.__name__
 
 
-def c_constants(kind):
-    """GLINT_SHADER_LAMBERTIAN and so on for ShaderType, in the order of the header."""
-    text = re.sub(r"/\*.*?\*/", "", HEADER.read_text(), flags=re.S)
-    body = re.search(rf"typedef enum Glint{kind.__name__} \{{(.*?)\}}", text, flags=re.S)[1]
-    names = re.findall(r"\b(GLINT_\w+)\b(?!\()", body)
-    # Those of a list that a macro holds are called as here.
-    return names if len(names) == len(kind) else ["GLINT_" + member.name for member in kind]
+def c_constant(kind, member):
+    """GLINT_SHADER_PHONG for ShaderType.PHONG."""
+    text = HEADER.read_text()
+    words = [word.upper() for word in re.findall(r"[A-Z][a-z0-9]*", kind.__name__)]
+    short = member.name[1:] if re.match(r"Y\d", member.name) else member.name
+    listed = re.search(rf"\bX\({short}\b", text)
+    for count in range(len(words), -1, -1):
+        for part in itertools.combinations(words, count):
+            prefix = "_".join(["GLINT", *part, ""])
+            if re.search(rf"\b{prefix}{short}\b", text) or (listed and prefix + "##" in text):
+                return prefix + short
+    return "GLINT_" + short
 
 
 def layout_program():
@@ -61,9 +67,9 @@ def layout_program():
             size = f"sizeof((({name} *)0)->{field})"
             yield f'printf("{name}.{field} %zu %zu\\n", offsetof({name}, {field}), {size});'
     for kind in ENUMS:
-        for member, constant in zip(kind, c_constants(kind)):
+        for member in kind:
             text = f"{kind.__name__}.{member.name}"
-            yield f'printf("{text} %d\\n", (int){constant});'
+            yield f'printf("{text} %d\\n", (int){c_constant(kind, member)});'
     yield "return 0; }"
 
 
