@@ -86,7 +86,8 @@ check "glint --version" /usr/bin/glint --version
 check "glint: a picture" /usr/bin/glint --size 60x40 -o solids.png $examples/solids.xml
 check "glint: a PNG texture, EXR" /usr/bin/glint --size 60x40 -o globe.exr $examples/globe.xml
 for file in solids.png globe.exr; do
-    "$build/glint" -q --size 60x40 -o "own-$file" "$source/scenes/${file%.*}.xml"
+    # Of the same path, which stands in the recipe of a PNG.
+    "$build/glint" -q --size 60x40 -o "own-$file" "$examples/${file%.*}.xml"
     check "$file is that of the build" cmp "$file" "own-$file"
 done
 check "the manual page" sh -c 'zcat /usr/share/man/man1/glint.1.gz | grep -q "^.TH GLINT 1"'
