@@ -9,7 +9,7 @@ build=$(cd "${1:-build}" && pwd) || exit 3
 source=$(cd "$(dirname "$0")/.." && pwd) || exit 3
 dir=$(mktemp -d)
 installed= # whether it is ours to remove
-names="glint glint-modules libglint0 libglint-dev python3-glint"
+names="glint glint-modules glint-window libglint0 libglint-dev python3-glint"
 clean() {
     # shellcheck disable=SC2086 # names are a list
     [ -z "$installed" ] || apt purge -y $names >/dev/null 2>&1
@@ -77,8 +77,8 @@ traces() { find /etc /opt /usr /var -name '*glint*' 2>/dev/null; }
 traces | sort >"$dir/before"
 installed=yes
 check "apt install" apt install -y --no-install-recommends "$one"/glint_*.deb \
-    "$one"/glint-modules_*.deb "$one"/libglint0_*.deb "$one"/libglint-dev_*.deb \
-    "$one"/python3-glint_*.deb
+    "$one"/glint-modules_*.deb "$one"/glint-window_*.deb "$one"/libglint0_*.deb \
+    "$one"/libglint-dev_*.deb "$one"/python3-glint_*.deb
 
 mkdir "$dir/work" && cd "$dir/work" || exit 3
 examples=/usr/share/doc/glint/examples
@@ -86,7 +86,8 @@ check "glint --version" /usr/bin/glint --version
 check "glint: a picture" /usr/bin/glint --size 60x40 -o solids.png $examples/solids.xml
 check "glint: a PNG texture, EXR" /usr/bin/glint --size 60x40 -o globe.exr $examples/globe.xml
 for file in solids.png globe.exr; do
-    "$build/glint" -q --size 60x40 -o "own-$file" "$source/scenes/${file%.*}.xml"
+    # Of the same path, which stands in the recipe of a PNG.
+    "$build/glint" -q --size 60x40 -o "own-$file" "$examples/${file%.*}.xml"
     check "$file is that of the build" cmp "$file" "own-$file"
 done
 check "the manual page" sh -c 'zcat /usr/share/man/man1/glint.1.gz | grep -q "^.TH GLINT 1"'

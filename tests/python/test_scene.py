@@ -234,6 +234,7 @@ class Calls(TestCase):
     def test_ctrl_c_stops_a_picture(self):
         code = (
             "import glint, os, signal, sys, threading, time\n"
+            "signal.signal(signal.SIGINT, signal.default_int_handler)  # also in the background\n"
             "scene = glint.Scene.from_file(sys.argv[1])\n"
             "def stop():\n"
             "    time.sleep(0.3)\n"
