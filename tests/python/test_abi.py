@@ -31,6 +31,7 @@ NAMES = {
     ctypes.c_char_p: "char *",
     ctypes.c_void_p: "void *",  # stands for any pointer
     ctypes.POINTER(ctypes.c_void_p): "void *",
+    ctypes.POINTER(ctypes.c_char_p): "const char * *",
     **CALLBACKS,
 }
 
