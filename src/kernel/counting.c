@@ -21,7 +21,6 @@ static void count_many_any(const GiTrace *trace, const GiTraceRay *rays, int cou
     for (int i = 0; i < count; i++) blocked[i] = count_any(trace, &rays[i]);
 }
 
-
 static void count_bundle_closest(const GiTrace *trace, GiBundle *bundle) {
     for (int i = 0; i < bundle->count; i++) {
         GiTraceRay ray = {bundle->apex, {bundle->dx[i], bundle->dy[i], bundle->dz[i]},
