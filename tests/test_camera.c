@@ -100,7 +100,10 @@ static void asked_for(void) {
     desc.type = GLINT_CAMERA_PARALLEL;
     desc.projection_normal[2] = -1;
     CHECK_INT(glint_scene_set_camera(scene, &desc, NULL), GLINT_OK);
-    CHECK(glint_scene_camera(scene, &camera) && memcmp(&camera, &desc, sizeof desc) == 0);
+    CHECK(glint_scene_camera(scene, &camera) && camera.type == desc.type);
+    /* What lies between the members is anything. */
+    size_t numbers = offsetof(GlintCameraDesc, cookie) - offsetof(GlintCameraDesc, view_point);
+    CHECK(memcmp(camera.view_point, desc.view_point, numbers) == 0);
     glint_scene_destroy(scene);
 }
 
