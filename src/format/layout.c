@@ -71,6 +71,7 @@ static size_t column_of(const char *text, size_t size) {
 
 /* The column at which a text of one or more lines ends; of a very long line, a large one. */
 static size_t end_column(const char *text, size_t size) {
+    if (size == 0) return 0; /* an empty text may be a null pointer */
     size_t begin = size;
     while (begin > 0 && text[begin - 1] != '\n' && size - begin <= COLUMN_LIMIT) begin--;
     return column_of(text + begin, size - begin);
