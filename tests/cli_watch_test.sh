@@ -7,6 +7,10 @@
 set -u
 . "$(dirname "$0")/cli.sh"
 unset DISPLAY WAYLAND_DISPLAY
+# check_leaks 0|1: for a program built with the address sanitizer. What D-Bus and the display's
+# drivers, which SDL loads for a window, keep to themselves is not the program's.
+sanitizer=${ASAN_OPTIONS:-}
+check_leaks() { export ASAN_OPTIONS="${sanitizer:+$sanitizer:}detect_leaks=$1"; }
 
 cat >a.xml <<'XML'
 <scene dialect="glint">
@@ -35,10 +39,12 @@ run 2 watch --terminal=sixl a.xml
 says "did you mean 'sixel'?"
 run 2 watch --terminal a.xml
 says "--terminal needs a terminal"
+check_leaks 0
 DISPLAY=:nowhere run 2 watch a.xml
 says "no window can be opened"
 DISPLAY=:nowhere run 3 watch --window a.xml
 says "\`glint watch --terminal\` needs no window"
+check_leaks 1
 
 # ---- once, into a file
 run 0 watch --once --terminal=blocks --size 30x20 a.xml
@@ -88,6 +94,7 @@ trap 'kill $xvfb $watcher 2>/dev/null; rm -rf "$dir"' EXIT
 read -r number <display
 DISPLAY=:$number
 export DISPLAY
+check_leaks 0
 
 # waits_for COMMAND...: until it succeeds; ten seconds are more than it takes.
 waits_for() {
