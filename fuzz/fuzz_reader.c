@@ -54,6 +54,7 @@ static GlintStatus load(
         .diagnostic = on_diagnostic,
         .diagnostic_user = input,
         .chunk_size = chunk_size,
+        .thread_count = chunk_size == 7 ? 2 : 1,
         .without_files = true,
         .expat_only = expat_only};
     GlintError error = {.status = GLINT_OK};

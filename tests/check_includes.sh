@@ -27,8 +27,8 @@ accel: shape sched port
 kernel: accel shape port
 shade: scene shape light texture
 camera: mistake scene
-reader: scene mesh shape light texture port
-format: reader scene mesh shape light texture port
+reader: scene mesh shape light texture sched port
+format: reader scene mesh shape light texture sched port
 compare: texture image sched port
 grade: mistake compare sched
 render: mistake sample light texture shade camera kernel accel image sched scene shape port

@@ -295,6 +295,27 @@ static void pool_many_loops(void) {
     CHECK_INT(atomic_load(&memory.used), 0);
 }
 
+/* Loops in two halves: all is done after the second, whoever did it. */
+static void pool_halves(void) {
+    GiMemory memory;
+    gi_memory_init(&memory, NULL, 0);
+    for (int w = 0; w < WORKER_COUNTS; w++) {
+        GiPool *pool;
+        CHECK_INT(gi_pool_create(&memory, worker_counts[w], &pool), GLINT_OK);
+        for (int i = 0; i < 2000 / worker_counts[w]; i++) {
+            _Atomic size_t sum = 0;
+            size_t count = (size_t)(i % 7);
+            gi_parallel_begin(pool, count, 1, add_range, &sum);
+            if (worker_counts[w] == 1) CHECK_INT(atomic_load(&sum), 0);
+            gi_parallel_end(pool);
+            size_t expected = count > 0 ? count * (count - 1) / 2 : 0;
+            if (atomic_load(&sum) != expected) test_fail(__FILE__, __LINE__, "loop %d", i);
+        }
+        gi_pool_destroy(pool);
+    }
+    CHECK_INT(atomic_load(&memory.used), 0);
+}
+
 typedef struct Nest {
     GiPool *inner[MOST_WORKERS];
     _Atomic int wrong;
@@ -431,5 +452,6 @@ static void digests(void) {
 
 const GiTest tests_base[] = {TEST(memory_is_counted), TEST(memory_limit), TEST(memory_refused),
     TEST(memory_lines), TEST(sizes), TEST(memory_from_threads), TEST(arrays), TEST(errors),
-    TEST(pool_covers), TEST(pool_many_loops), TEST(pool_nested), TEST(pool_of_little_memory),
-    TEST(tasks_beget_tasks), TEST(tasks_of_little_memory), TEST(digests), TEST_END};
+    TEST(pool_covers), TEST(pool_many_loops), TEST(pool_halves), TEST(pool_nested),
+    TEST(pool_of_little_memory), TEST(tasks_beget_tasks), TEST(tasks_of_little_memory),
+    TEST(digests), TEST_END};

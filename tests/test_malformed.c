@@ -6,6 +6,7 @@
 #include "reader/reader.h"
 
 #include <dirent.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,8 +40,9 @@ static void malformed(void) {
             test_fail(__FILE__, __LINE__, "%s is missing", path);
             continue;
         }
-        for (size_t chunk = 0; chunk <= 9; chunk++) {
-            load_bytes(text, size, chunk);
+        for (size_t i = 0; i <= 18; i++) {
+            size_t chunk = (i + 1) / 2;
+            load_threaded(text, size, chunk, 1 + (int)(i % 2));
             CHECK_INT(loaded.status, GLINT_ERROR_SCENE);
             if (strcmp(loaded.findings, expected) != 0) {
                 test_fail(__FILE__, __LINE__, "%s with chunks of %zu: found\n%sexpected\n%s",
@@ -50,7 +52,7 @@ static void malformed(void) {
             snprintf(start, sizeof start, "%d:%d: %s", loaded.error.line, loaded.error.column,
                 loaded.error.message);
             CHECK(strncmp(expected, start, strlen(start)) == 0);
-            if (chunk == 0) memcpy(first, loaded.printed, sizeof first);
+            if (i == 0) memcpy(first, loaded.printed, sizeof first);
             if (strcmp(first, loaded.printed) != 0) {
                 test_fail(__FILE__, __LINE__, "%s with chunks of %zu: printed\n%sat first\n%s",
                     entry->d_name, chunk, loaded.printed, first);
@@ -158,7 +160,7 @@ static void cut_anywhere(void) {
         "\xef\xbb\xbf<?xml version='1.0'?>\n" BEGIN
         "<!-- c --><surface type='Sphere'><center>1 2 3</center></surface><![CDATA[ ]]></scene>\n";
     for (size_t size = 0; size < sizeof text - 2; size++) {
-        load_bytes(text, size, size % 5);
+        load_threaded(text, size, size % 5, 1 + (int)(size & 1));
         CHECK_INT(loaded.status, GLINT_ERROR_SCENE);
         CHECK_INT(loaded.count, 1);
         unload();
@@ -176,8 +178,8 @@ static void chunks(void) {
     uint32_t shapes = scene->shape_count;
     size_t groups_count = scene->groups.count, roots = scene->roots.count;
     unload();
-    for (size_t chunk = 1; chunk < 40; chunk++) {
-        load_bytes(small_scene, sizeof small_scene - 1, chunk);
+    for (size_t i = 2; i < 80; i++) {
+        load_threaded(small_scene, sizeof small_scene - 1, i / 2, 1 + (int)(i % 2));
         CHECK_INT(loaded.status, GLINT_OK);
         CHECK_INT(scene->shape_count, shapes);
         CHECK_INT(scene->groups.count, groups_count);
@@ -188,37 +190,45 @@ static void chunks(void) {
 
 /* Refuses the request whose turn it is. */
 static void *failing_reallocate(void *user, void *pointer, size_t old_size, size_t new_size) {
-    long *left = user;
+    _Atomic long *left = user;
     (void)old_size;
     if (new_size == 0) {
         free(pointer);
         return NULL;
     }
-    return (*left)-- == 0 ? NULL : realloc(pointer, new_size);
+    return atomic_fetch_sub(left, 1) == 0 ? NULL : realloc(pointer, new_size);
+}
+
+/* Each request in its turn. Without memory for a thread, things go on without the thread. */
+static void fail_each_request(const char *text, int thread_count, GlintStatus wanted, long least) {
+    int refused = 0;
+    for (long request = 0;; request++) {
+        _Atomic long left = request;
+        GlintAllocator allocator = {failing_reallocate, &left};
+        Input input = {.head = text, .head_size = strlen(text), .thread_count = thread_count};
+        load_input(input, 16, GLINT_DIALECT_AUTO, &allocator);
+        GlintStatus status = loaded.status;
+        unload();
+        if (left >= 0) {
+            CHECK_INT(status, wanted);
+            CHECK(request > least);
+            CHECK_INT(refused, thread_count > 1 ? 2 : 0);
+            return;
+        }
+        if (status == wanted) {
+            refused++;
+        } else {
+            CHECK_INT(status, GLINT_ERROR_MEMORY);
+        }
+    }
 }
 
 static void failing_allocator(void) {
-    static const char wrong[] = BEGIN "<x name='x'/><surface ref='y'/>" END;
-    static const char by_expat[] = BEGIN "<light name='&amp;'/>" END;
-    static const char *const texts[] = {small_scene, wrong, by_expat};
-    for (int pass = 0; pass < 3; pass++) {
-        const char *text = texts[pass];
-        GlintStatus wanted = text == wrong ? GLINT_ERROR_SCENE : GLINT_OK;
-        long request = 0;
-        for (;; request++) {
-            long left = request;
-            GlintAllocator allocator = {failing_reallocate, &left};
-            Input input = {.head = text, .head_size = strlen(text)};
-            load_input(input, 16, GLINT_DIALECT_AUTO, &allocator);
-            GlintStatus status = loaded.status;
-            unload();
-            if (left >= 0) {
-                CHECK_INT(status, wanted);
-                break;
-            }
-            CHECK_INT(status, GLINT_ERROR_MEMORY);
-        }
-        CHECK(request > (text == by_expat ? 20 : 5));
+    for (int threads = 1; threads <= 2; threads++) {
+        fail_each_request(small_scene, threads, GLINT_OK, 5);
+        fail_each_request(
+            BEGIN "<x name='x'/><surface ref='y'/>" END, threads, GLINT_ERROR_SCENE, 5);
+        fail_each_request(BEGIN "<light name='&amp;'/>" END, threads, GLINT_OK, 20);
     }
 }
 
@@ -231,17 +241,74 @@ static void failing_source(void) {
     CHECK_TEXT(loaded.error.path, "test.xml");
     unload();
 
-    int calls = 0;
-    GlintMonitor monitor = {.cancelled = cancel_third, .user = &calls};
-    Input text = {.head = small_scene, .head_size = sizeof small_scene - 1};
-    GiReaderSource source = {
-        .read = read_input, .user = &text, .name = "x", .monitor = &monitor, .chunk_size = 10};
-    gi_memory_init(&loaded.memory, NULL, 0);
-    CHECK(gi_scene_init(&loaded.scene, &loaded.memory));
-    CHECK_INT(gi_reader_load(&loaded.scene, &source, NULL, NULL), GLINT_CANCELLED);
-    unload();
+    for (int threads = 1; threads <= 2; threads++) {
+        int calls = 0;
+        GlintMonitor monitor = {.cancelled = cancel_third, .user = &calls};
+        Input text = {.head = small_scene, .head_size = sizeof small_scene - 1};
+        GiReaderSource source = {.read = read_input,
+            .user = &text,
+            .name = "x",
+            .monitor = &monitor,
+            .chunk_size = 10,
+            .thread_count = threads};
+        gi_memory_init(&loaded.memory, NULL, 0);
+        CHECK(gi_scene_init(&loaded.scene, &loaded.memory));
+        CHECK_INT(gi_reader_load(&loaded.scene, &source, NULL, NULL), GLINT_CANCELLED);
+        unload();
+    }
+}
+
+/* A source that fails after so many bytes, and must not be asked again then. */
+typedef struct Failing {
+    Input input;
+    size_t left;
+    bool failed;
+} Failing;
+
+static int64_t read_failing(void *user, void *buffer, size_t size) {
+    Failing *failing = user;
+    CHECK(!failing->failed);
+    if (failing->left == 0) failing->failed = true;
+    if (failing->failed) return -1;
+    if (size > failing->left) size = failing->left;
+    failing->left -= size;
+    return read_input(&failing->input, buffer, size);
+}
+
+/* A failure says the same whatever had been scanned ahead: what is wrong and stops the reader
+ * before that comes first. */
+static void failing_ahead(void) {
+    static const char *const fillers[] = {
+        "<shader name='a' type='Phong'/>", "<surface type='Group'>"};
+    for (int i = 0; i < 2; i++) {
+        for (size_t left = 2000; left < 5000000; left = left * 5 / 3 + 7) {
+            GlintError errors[2] = {{0}, {0}};
+            for (int threads = 1; threads <= 2; threads++) {
+                Input text = {.head = BEGIN,
+                    .head_size = strlen(BEGIN),
+                    .filler = fillers[i],
+                    .filler_size = strlen(fillers[i]),
+                    .filler_count = 1000000};
+                Failing failing = {text, left, false};
+                GiReaderSource source = {.read = read_failing,
+                    .user = &failing,
+                    .name = "x",
+                    .chunk_size = 5000,
+                    .thread_count = threads};
+                gi_memory_init(&loaded.memory, NULL, 0);
+                CHECK(gi_scene_init(&loaded.scene, &loaded.memory));
+                gi_reader_load(&loaded.scene, &source, NULL, &errors[threads - 1]);
+                unload();
+            }
+            bool deep = i == 1 && left > 100000 * strlen(fillers[i]) + 20000;
+            CHECK_INT(errors[0].status, deep ? GLINT_ERROR_SCENE : GLINT_ERROR_FILE);
+            CHECK_INT(errors[1].status, errors[0].status);
+            CHECK_TEXT(errors[1].message, errors[0].message);
+            CHECK_INT(errors[1].column, errors[0].column);
+        }
+    }
 }
 
 const GiTest tests_malformed[] = {TEST(malformed), TEST(formatting), TEST(long_lines),
     TEST(many_errors), TEST(hostile), TEST(cut_anywhere), TEST(chunks), TEST(failing_allocator),
-    TEST(failing_source), TEST_END};
+    TEST(failing_source), TEST(failing_ahead), TEST_END};

@@ -20,6 +20,7 @@ typedef struct Input {
     size_t head_size, filler_size, tail_size, filler_count, position;
     bool fails;
     const char *name; /* null: test.xml */
+    int thread_count; /* 0: one */
 } Input;
 
 static inline int64_t read_input(void *user, void *buffer, size_t size) {
@@ -81,6 +82,7 @@ static inline Loaded *load_by(Input input, size_t chunk_size, GlintDialect diale
         .diagnostic_user = &loaded,
         .dialect = dialect,
         .chunk_size = chunk_size,
+        .thread_count = input.thread_count > 0 ? input.thread_count : 1,
         .expat_only = expat_only};
     loaded.status = gi_reader_load(&loaded.scene, &source, NULL, &loaded.error);
     loaded.peak_extra = loaded.memory.peak - loaded.memory.used;
@@ -92,16 +94,23 @@ static inline Loaded *load_input(
     return load_by(input, chunk_size, dialect, allocator, false);
 }
 
-static inline Loaded *load_bytes(const char *bytes, size_t size, size_t chunk_size) {
-    Input input = {.head = bytes, .head_size = size};
+static inline Loaded *load_threaded(
+    const char *bytes, size_t size, size_t chunk_size, int thread_count) {
+    Input input = {.head = bytes, .head_size = size, .thread_count = thread_count};
     return load_input(input, chunk_size, GLINT_DIALECT_AUTO, NULL);
+}
+
+static inline Loaded *load_bytes(const char *bytes, size_t size, size_t chunk_size) {
+    return load_threaded(bytes, size, chunk_size, 1);
 }
 
 static inline Loaded *load(const char *text) { return load_bytes(text, strlen(text), 0); }
 
 static inline Loaded *load_filled(
     const char *head, const char *filler, size_t count, const char *tail) {
-    Input input = {.head = head, .filler = filler, .tail = tail, .filler_count = count};
+    /* Two threads: what is large enough for them is read by them. */
+    Input input = {
+        .head = head, .filler = filler, .tail = tail, .filler_count = count, .thread_count = 2};
     input.head_size = strlen(head);
     input.filler_size = strlen(filler);
     input.tail_size = strlen(tail);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * The scanner takes what it should and nothing else, and a scene is the same, with the same
- * findings, whether the scanner reads it, expat, or each a part. */
+ * findings, whether the scanner reads it, expat, or each a part, and on how many threads. */
 #include "test_reader_input.h"
 
 #include "random.h"
@@ -115,8 +115,9 @@ static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size) {
 #define HASH_ARRAY(hash, array)                                                                    \
     hash_bytes((hash), (array).data, (array).count * sizeof *(array).data)
 
-static Outcome load_either(const char *text, size_t size, size_t chunk_size, bool expat_only) {
-    Input input = {.head = text, .head_size = size};
+static Outcome load_either(
+    const char *text, size_t size, size_t chunk_size, int thread_count, bool expat_only) {
+    Input input = {.head = text, .head_size = size, .thread_count = thread_count};
     load_by(input, chunk_size, GLINT_DIALECT_AUTO, NULL, expat_only);
     const GiScene *scene = &loaded.scene;
     Outcome outcome = {loaded.status, hash_bytes(1, loaded.printed, strlen(loaded.printed))};
@@ -184,13 +185,19 @@ static void same_as_expat(void) {
         size_t size = strlen(seed);
         memcpy(text, seed, size);
         if (i > 1) size = mutate(&random, text, size);
-        Outcome expected = load_either(text, size, 0, true);
-        Outcome found = load_either(text, size, 0, false);
+        Outcome expected = load_either(text, size, 0, 1, true);
+        Outcome found = load_either(text, size, 0, 1, false);
         bool same = found.status == expected.status && found.hash == expected.hash;
         /* Of malformed text expat hands out more or less, depending on the chunks. */
-        found = load_either(text, size, 1 + (size_t)random_below(&random, 60), false);
+        size_t chunk_size = 1 + (size_t)random_below(&random, 60);
+        found = load_either(text, size, chunk_size, 1, false);
         same &= found.status == expected.status &&
                 (found.status != GLINT_OK || found.hash == expected.hash);
+        /* Threads make no difference at all. */
+        if (i % 4 < 2) {
+            Outcome threaded = load_either(text, size, chunk_size, 2, false);
+            same &= threaded.status == found.status && threaded.hash == found.hash;
+        }
         if (!same) test_fail(__FILE__, __LINE__, "not the same: %.*s", (int)size, text);
     }
 }

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * The outer loop: bytes from the source through the window into the parser, whose events go to
- * tree.c. Nothing of the document is kept but the open elements and what is named. */
+ * The outer loop: bytes from the source through the window into the scanner or the parser, whose
+ * events go to tree.c. Nothing of the document is kept but the open elements and what is named.
+ *
+ * Of a large file one thread scans a chunk while this one builds from the chunk before it. The
+ * source is read, the window moved and the user called back by this thread alone, before that or
+ * after it; meanwhile both only look at the window's bytes. */
 #include "reader/reader.h"
 
 #include "base/digest.h"
@@ -9,7 +13,11 @@
 
 #include <string.h>
 
-enum { CHUNK_SIZE = 256 * 1024, TOKEN_LIMIT = 64 * 1024 * 1024 };
+enum {
+    CHUNK_SIZE = 256 * 1024,
+    THREAD_SIZE = 2 * 1024 * 1024, /* of a file that is worth a thread */
+    TOKEN_LIMIT = 64 * 1024 * 1024
+};
 
 /* ---------------------------------------------------------------- stopping */
 
@@ -55,10 +63,15 @@ static int64_t parsed_end(const GiReader *reader) {
     return offset < reader->window.base ? reader->window.base : offset > end ? end : offset;
 }
 
+/* The first byte of which the tree has not been told. */
+static int64_t played_end(const GiReader *reader) {
+    return reader->tape.entries.count > 0 ? reader->tape.begin : parsed_end(reader);
+}
+
 /* Makes the window small again, when that is worth moving what stays. */
 static void slide_window(GiReader *reader, size_t more) {
     GiWindow *window = &reader->window;
-    int64_t keep = parsed_end(reader) - GI_WINDOW_KEEP;
+    int64_t keep = played_end(reader) - GI_WINDOW_KEEP;
     size_t room = window->capacity - window->size;
     bool whole = reader->source->sources != NULL;
     if (whole || room >= more || keep - window->base < GI_WINDOW_KEEP) return;
@@ -74,6 +87,7 @@ typedef struct Feed {
     int64_t total; /* bytes read */
     uint64_t digest;
     bool ended;
+    GlintStatus status; /* nothing is read after a failure */
 } Feed;
 
 static bool is_cancelled(const GlintMonitor *monitor) {
@@ -84,8 +98,7 @@ static GlintStatus report_cancelled(GlintError *error) {
     return gi_error_set(error, GLINT_CANCELLED, "cancelled while reading the scene");
 }
 
-/* Reads up to `wanted` bytes behind the window. */
-static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintError *error) {
+static GlintStatus read_bytes(GiReader *reader, Feed *feed, size_t wanted, GlintError *error) {
     const GiReaderSource *source = feed->source;
     const GlintMonitor *monitor = source->monitor;
     if (!gi_window_reserve(&reader->window, wanted + 1)) return gi_error_memory(error);
@@ -115,17 +128,76 @@ static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintE
     return GLINT_OK;
 }
 
-/* Scans what is in the window. GI_SCAN_MORE only where there is more, or all is done. */
-static GiScanStatus scan_window(GiReader *reader, const Feed *feed) {
+/* Reads up to `wanted` bytes behind the window. */
+static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintError *error) {
+    if (feed->status == GLINT_OK) feed->status = read_bytes(reader, feed, wanted, error);
+    return feed->status;
+}
+
+/* ---------------------------------------------------------------- scanning */
+
+/* Gives a large file a thread that scans it; a test's small one as well. When none is to be had,
+ * this one does all. */
+static void need_thread(GiReader *reader, const Feed *feed) {
+    const GiReaderSource *source = feed->source;
+    int64_t size = source->total_size > feed->total ? source->total_size : feed->total;
+    if (reader->pool_considered || (size < THREAD_SIZE && source->chunk_size == 0)) return;
+    reader->pool_considered = true;
+    if (gi_pool_size(source->thread_count) > 1) gi_pool_create(reader->memory, 2, &reader->pool);
+}
+
+static void play_tape(GiReader *reader) {
+    gi_tape_play(reader, &reader->tape);
+    reader->tape.entries.count = 0;
+}
+
+static void scan(GiReader *reader) {
     const GiWindow *window = &reader->window;
     size_t from = (size_t)(reader->scanner.next - window->base);
-    GiScanStatus status = gi_scan(
-        &reader->scanner, (const char *)window->data + from, window->size - from, &reader->tape);
-    if (status == GI_SCAN_MEMORY) return status;
-    gi_tape_play(reader, &reader->tape);
+    reader->scanned = gi_scan(&reader->scanner, (const char *)window->data + from,
+        window->size - from, &reader->next_tape);
+}
+
+/* What another thread does while this one plays: it also counts the lines up to where the window
+ * will begin, which is a sixth of this thread's work. */
+static void scan_aside(void *context, size_t begin, size_t end, int worker) {
+    (void)begin, (void)end, (void)worker;
+    GiReader *reader = context;
+    int64_t keep = reader->scanner.next - GI_WINDOW_KEEP;
+    if (keep > reader->next_keep.offset) {
+        gi_window_advance(&reader->window, &reader->next_keep, keep);
+    }
+    scan(reader);
+}
+
+/* Scans what is in the window, while what was scanned before is played. */
+static void scan_and_play(GiReader *reader) {
+    GiWindow *window = &reader->window;
+    reader->next_keep = window->cursor;
+    gi_parallel_begin(reader->pool, 1, 1, scan_aside, reader);
+    play_tape(reader);
+    gi_parallel_end(reader->pool);
+    if (reader->next_keep.offset > window->cursor.offset) window->cursor = reader->next_keep;
+}
+
+/* Scans what is in the window, and plays it now, or the next time, while what follows is scanned.
+ * GI_SCAN_MORE only where there is more, or all is done. */
+static GiScanStatus scan_window(GiReader *reader, const Feed *feed) {
+    need_thread(reader, feed);
+    if (reader->pool != NULL) {
+        scan_and_play(reader);
+    } else {
+        scan(reader);
+    }
+    if (reader->scanned == GI_SCAN_MEMORY) return GI_SCAN_MEMORY;
+    GiTape played = reader->tape;
+    reader->tape = reader->next_tape;
+    reader->next_tape = played;
     bool done =
         reader->scanner.next == window_end(reader) && gi_scanner_is_complete(&reader->scanner);
-    return feed->ended && !done ? GI_SCAN_STRANGE : status;
+    GiScanStatus status = feed->ended && !done ? GI_SCAN_STRANGE : reader->scanned;
+    if (reader->pool == NULL || feed->ended || status != GI_SCAN_MORE) play_tape(reader);
+    return status;
 }
 
 /* Hands what is new in the window, from an offset on, to the scanner or expat. False when neither
@@ -154,6 +226,8 @@ static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
         size_t waiting = (size_t)(window_end(reader) - parsed_end(reader));
         size_t wanted = waiting > chunk ? waiting : chunk;
         if (waiting > TOKEN_LIMIT) {
+            play_tape(reader);
+            if (reader->stopped) return GLINT_OK;
             gi_report_add(&reader->report, (GiPlace){.offset = parsed_end(reader)}, 1,
                 "what begins here (a comment or a tag) does not end within 64 MiB");
             reader->stopped = true;
@@ -163,7 +237,10 @@ static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
         slide_window(reader, wanted + 1);
         int64_t from = window_end(reader);
         GlintStatus status = read_more(reader, feed, wanted, error);
-        if (status != GLINT_OK) return status;
+        if (status != GLINT_OK) {
+            play_tape(reader); /* what is wrong there was there before */
+            return reader->stopped ? GLINT_OK : status;
+        }
         if (first) gi_window_detect(&reader->window);
         first = false;
         if (parse_window(reader, feed, from)) continue;
@@ -202,8 +279,10 @@ static void open_reader(GiReader *reader, GiScene *scene, const GiReaderSource *
 
 static void close_reader(GiReader *reader) {
     gi_parser_close(reader);
+    gi_pool_destroy(reader->pool);
     gi_scanner_reset(&reader->scanner);
     gi_array_free(reader->memory, &reader->tape.entries);
+    gi_array_free(reader->memory, &reader->next_tape.entries);
     gi_array_free(reader->memory, &reader->frames);
     gi_array_free(reader->memory, &reader->tags);
     gi_array_free(reader->memory, &reader->cameras);

@@ -17,7 +17,7 @@ typedef struct GiReaderSource {
     void *diagnostic_user;
     GlintDialect dialect;       /* AUTO: what the file says or shows */
     size_t chunk_size;          /* bytes handed to the parser at once; 0: a good size */
-    int thread_count;           /* for loading meshes; 0: one per core */
+    int thread_count;           /* for scanning and for loading meshes; 0: one per core */
     bool without_files;         /* other files are not opened: each counts as found and empty */
     GiSources *sources;         /* null; or filled with what is known of the places of objects */
     GiFileNames *missing_files; /* null; or filled with those that are not found */
@@ -34,6 +34,7 @@ typedef struct GiReaderResult {
  *              reading, in the order of the file), the first in *error
  *   FILE       read failed
  *   MEMORY, CANCELLED
- * After an error the scene holds a part of the file and can only be reset. */
+ * After an error the scene holds a part of the file and can only be reset. All of the source's
+ * functions are called on this thread. Nothing but the time depends on thread_count. */
 GlintStatus gi_reader_load(
     GiScene *scene, const GiReaderSource *source, GiReaderResult *result, GlintError *error);

@@ -12,6 +12,7 @@
 #include "reader/report.h"
 #include "reader/scan.h"
 #include "scene/scene.h"
+#include "sched/pool.h"
 
 #include <expat.h>
 
@@ -63,9 +64,14 @@ typedef struct GiReader {
     GiScene *scene;
     GiMemory *memory;
     GiScanner scanner;
-    GiTape tape;
-    XML_Parser parser;                /* null: the scanner still understands the file */
-    int64_t parser_shift;             /* from the parser's offsets to those of the file */
+    GiPool *pool;         /* null: scanning has no thread of its own */
+    bool pool_considered; /* whether it needs one */
+    GiTape tape;          /* what is scanned; when it has entries, they wait to be played */
+    GiTape next_tape;     /* what is being scanned meanwhile */
+    GiPlace next_keep;    /* what is kept before the stretch of that tape begins there */
+    GiScanStatus scanned; /* what became of it */
+    XML_Parser parser;    /* null: the scanner still understands the file */
+    int64_t parser_shift; /* from the parser's offsets to those of the file */
     GI_ARRAY(GiAttribute) attributes; /* of the start tag that is being handled */
     GiElementIndex elements;
     GiWindow window;

@@ -115,14 +115,18 @@ static void count_bytes(const GiWindow *window, int64_t offset, GiPlace *place) 
     place->offset = offset;
 }
 
+void gi_window_advance(const GiWindow *window, GiPlace *place, int64_t offset) {
+    if (gi_window_unit(window) == 2) {
+        count_units(window, offset, place);
+    } else {
+        count_bytes(window, offset, place);
+    }
+}
+
 void gi_window_locate(GiWindow *window, GiPlace *place) {
     if (place->line != 0 || !gi_window_holds(window, place->offset)) return;
     GiPlace from = place->offset >= window->cursor.offset ? window->cursor : window->start;
-    if (gi_window_unit(window) == 2) {
-        count_units(window, place->offset, &from);
-    } else {
-        count_bytes(window, place->offset, &from);
-    }
+    gi_window_advance(window, &from, place->offset);
     place->line = from.line;
     place->column = from.column > 0 ? from.column : 1;
     if (from.offset > window->cursor.offset) window->cursor = from;

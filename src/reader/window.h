@@ -48,6 +48,10 @@ static inline bool gi_window_holds(const GiWindow *window, int64_t offset) {
     return offset >= window->base && offset <= window->base + (int64_t)window->size;
 }
 
+/* Brings a place whose line and column are known to an offset behind it; both in the window. Only
+ * looks at the bytes, so that another thread may do it. */
+void gi_window_advance(const GiWindow *window, GiPlace *place, int64_t offset);
+
 /* Counts line and column of a place unless they are known or its bytes are gone. */
 void gi_window_locate(GiWindow *window, GiPlace *place);
 

@@ -122,16 +122,11 @@ void gi_pool_destroy(GiPool *pool) {
 
 int gi_pool_worker_count(const GiPool *pool) { return pool->worker_count; }
 
-void gi_parallel_for(
+void gi_parallel_begin(
     GiPool *pool, size_t count, size_t min_range, GiParallelFn function, void *context) {
-    if (count == 0) return;
     if (min_range == 0) min_range = 1;
     size_t block = count / ((size_t)pool->worker_count * 4);
     if (block < min_range) block = min_range;
-    if (pool->worker_count == 1 || block >= count) {
-        function(context, 0, count, 0);
-        return;
-    }
     pthread_mutex_lock(&pool->mutex);
     /* A worker that woke late for the last loop may still be looking at it; it finds nothing left
      * there and leaves at once. */
@@ -144,8 +139,22 @@ void gi_parallel_for(
     pool->generation++;
     pthread_cond_broadcast(&pool->wake);
     pthread_mutex_unlock(&pool->mutex);
+}
+
+void gi_parallel_end(GiPool *pool) {
     work(&pool->loop, 0);
     pthread_mutex_lock(&pool->mutex);
     while (pool->active > 0) pthread_cond_wait(&pool->done, &pool->mutex);
     pthread_mutex_unlock(&pool->mutex);
+}
+
+void gi_parallel_for(
+    GiPool *pool, size_t count, size_t min_range, GiParallelFn function, void *context) {
+    if (count == 0) return;
+    if (pool->worker_count == 1 || count <= min_range || count == 1) {
+        function(context, 0, count, 0);
+        return;
+    }
+    gi_parallel_begin(pool, count, min_range, function, context);
+    gi_parallel_end(pool);
 }

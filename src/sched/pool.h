@@ -26,3 +26,10 @@ typedef void (*GiParallelFn)(void *context, size_t begin, size_t end, int worker
  * run, so results must not depend on it. */
 void gi_parallel_for(
     GiPool *pool, size_t count, size_t min_range, GiParallelFn function, void *context);
+
+/* The same in two halves, between which the caller does something else while the other workers
+ * begin. What they have not taken by then the caller does in gi_parallel_end: without other
+ * workers all of it. Every begin has its end before the pool is used again. */
+void gi_parallel_begin(
+    GiPool *pool, size_t count, size_t min_range, GiParallelFn function, void *context);
+void gi_parallel_end(GiPool *pool);
