@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT
+ * Shapes' boxes in kernel space (layout.h). */
+#pragma once
+
+#include "accel/layout.h"
+
+#include <math.h>
+
+static inline double gi_larger(double a, double b) { return a > b ? a : b; } /* fmax is a call */
+static inline double gi_smaller(double a, double b) { return a < b ? a : b; }
+
+static inline bool gi_box_is_finite(const GiBox *box) {
+    return isfinite(box->low.x) && isfinite(box->low.y) && isfinite(box->low.z) &&
+           isfinite(box->high.x) && isfinite(box->high.y) && isfinite(box->high.z);
+}
+
+/* How far a box reaches from the centre along an axis, at most. */
+static inline double gi_box_reach(const GiBox *box, GiVec center) {
+    GiVec low = gi_sub(box->low, center), high = gi_sub(box->high, center);
+    double x = gi_larger(fabs(low.x), fabs(high.x)), y = gi_larger(fabs(low.y), fabs(high.y)),
+           z = gi_larger(fabs(low.z), fabs(high.z));
+    return gi_larger(x, gi_larger(y, z));
+}
+
+typedef struct GiKernelBox {
+    float low[3], high[3];
+} GiKernelBox;
+
+/* A shape's box in kernel space, grown by the error bound (layout.h). What has no finite box begins
+ * with not-a-number. */
+static inline GiKernelBox gi_kernel_box(
+    const GiShapes *shapes, GiShapeRef ref, GiVec center, double scale) {
+    GiBox box = gi_shape_bounds(shapes, ref, GI_SHAPE_NONE);
+    double growth = GI_TREE_GROWTH * gi_box_reach(&box, center) + GI_TREE_GROWTH_LEAST / scale;
+    const GiVec reach = {growth, growth, growth};
+    GiVec low = gi_sub(gi_sub(box.low, center), reach);
+    GiVec high = gi_add(gi_sub(box.high, center), reach);
+    return (GiKernelBox){{gi_box_is_finite(&box) ? (float)(low.x * scale) : NAN,
+                             (float)(low.y * scale), (float)(low.z * scale)},
+        {(float)(high.x * scale), (float)(high.y * scale), (float)(high.z * scale)}};
+}
