@@ -5,7 +5,11 @@
 
 #include <string.h>
 
-enum { SHAPE_WIDTH = 8 /* doubles in the largest shape, at least */, WALKERS = 16 };
+enum {
+    SHAPE_WIDTH = 8, /* doubles in the largest shape, at least */
+    WALKERS = 16,
+    PART = 4096 /* rows or vertices that are worth a worker's while */
+};
 #define SETTLED GI_SHAPE_NONE
 
 /* Every ref of the tree's blocks that names a shape of this kind directly. */
@@ -152,28 +156,49 @@ static bool place_rest(GiMemory *memory, const GiMesh *mesh, uint32_t *original,
 }
 
 /* Rows of a mesh's triangles, row 0 that of the triangle `first`. */
-static bool move_rows(GiMemory *memory, uint32_t (*rows)[3], const uint32_t *original,
+typedef struct Rows {
+    uint32_t (*rows)[3], (*old)[3];
+    const uint32_t *original;
+    uint32_t first;
+} Rows;
+
+static void keep_rows(void *context, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const Rows *move = context;
+    memcpy(move->old + begin, move->rows + begin, (end - begin) * sizeof *move->old);
+}
+
+static void take_rows(void *context, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const Rows *move = context;
+    for (size_t i = begin; i < end; i++) {
+        memcpy(move->rows[i], move->old[move->original[i] - move->first], sizeof *move->rows);
+    }
+}
+
+static bool move_rows(GiMemory *memory, GiPool *pool, uint32_t (*rows)[3], const uint32_t *original,
     uint32_t first, uint32_t count) {
     if (rows == NULL || count == 0) return true;
     size_t size = count * sizeof *rows;
-    uint32_t(*old)[3] = gi_memory_allocate(memory, size);
-    if (old == NULL) return false;
-    memcpy(old, rows, size);
-    for (uint32_t i = 0; i < count; i++) memcpy(rows[i], old[original[i] - first], sizeof *rows);
-    gi_memory_free(memory, old, size);
+    Rows move = {rows, gi_memory_allocate(memory, size), original, first};
+    if (move.old == NULL) return false;
+    gi_parallel_for(pool, count, PART, keep_rows, &move);
+    gi_parallel_for(pool, count, PART, take_rows, &move);
+    gi_memory_free(memory, move.old, size);
     return true;
 }
 
-bool gi_reorder_triangles(GiScene *scene, uint32_t *original, const uint32_t *placed) {
+bool gi_reorder_triangles(
+    GiScene *scene, GiPool *pool, uint32_t *original, const uint32_t *placed) {
     GiMemory *memory = scene->memory;
     for (size_t i = 0; i < scene->meshes.meshes.count; i++) {
         const GiMesh *mesh = &scene->meshes.meshes.data[i];
         uint32_t first = mesh->first_triangle, count = mesh->triangle_count;
         uint32_t *order = original + first;
         if (!place_rest(memory, mesh, order, placed[i]) ||
-            !move_rows(memory, scene->meshes.corners.data + first, order, first, count) ||
-            !move_rows(memory, mesh->normal_corners, order, first, count) ||
-            !move_rows(memory, mesh->texcoord_corners, order, first, count)) {
+            !move_rows(memory, pool, scene->meshes.corners.data + first, order, first, count) ||
+            !move_rows(memory, pool, mesh->normal_corners, order, first, count) ||
+            !move_rows(memory, pool, mesh->texcoord_corners, order, first, count)) {
             return false;
         }
     }
@@ -214,17 +239,32 @@ static void place_vertices(const Vertices *vertices, uint32_t *place) {
     }
 }
 
-static void move_numbers(
-    const Numbers *numbers, uint32_t count, const uint32_t *place, float *copy) {
-    size_t width = numbers->width;
-    memcpy(copy, numbers->data, count * width * sizeof *copy);
-    for (uint32_t i = 0; i < count; i++) {
-        float *to = numbers->data + place[i] * width;
-        for (size_t k = 0; k < width; k++) to[k] = copy[i * width + k];
+/* Numbers on the way to their vertices' places. */
+typedef struct NumbersMove {
+    Numbers numbers;
+    const uint32_t *place;
+    float *old;
+} NumbersMove;
+
+static void keep_numbers(void *context, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const NumbersMove *move = context;
+    size_t width = move->numbers.width;
+    memcpy(move->old + begin * width, move->numbers.data + begin * width,
+        (end - begin) * width * sizeof *move->old);
+}
+
+static void put_numbers(void *context, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const NumbersMove *move = context;
+    size_t width = move->numbers.width;
+    for (size_t i = begin; i < end; i++) {
+        float *to = move->numbers.data + move->place[i] * width;
+        for (size_t k = 0; k < width; k++) to[k] = move->old[i * width + k];
     }
 }
 
-static void reorder_vertices(GiMemory *memory, const Vertices *vertices) {
+static void reorder_vertices(GiMemory *memory, GiPool *pool, const Vertices *vertices) {
     size_t place_size = vertices->count * sizeof(uint32_t);
     size_t copy_size = vertices->count * sizeof(GiFloat3);
     /* All memory first, so that a failure leaves everything as it was. */
@@ -233,7 +273,9 @@ static void reorder_vertices(GiMemory *memory, const Vertices *vertices) {
     if (place != NULL && copy != NULL) {
         place_vertices(vertices, place);
         for (int i = 0; i < vertices->number_count; i++) {
-            move_numbers(&vertices->numbers[i], vertices->count, place, copy);
+            NumbersMove move = {vertices->numbers[i], place, copy};
+            gi_parallel_for(pool, vertices->count, PART, keep_numbers, &move);
+            gi_parallel_for(pool, vertices->count, PART, put_numbers, &move);
         }
     }
     gi_memory_free(memory, place, place_size);
@@ -242,11 +284,11 @@ static void reorder_vertices(GiMemory *memory, const Vertices *vertices) {
 
 /* Normals or texture coordinates: with the positions where they share their rows. False when there
  * are not as many, so that they cannot trade places alike. */
-static bool take_numbers(GiMemory *memory, Vertices *vertices, Numbers numbers,
+static bool take_numbers(GiMemory *memory, GiPool *pool, Vertices *vertices, Numbers numbers,
     uint32_t (*own_rows)[3], uint32_t first, uint32_t count) {
     if (own_rows != NULL) {
         const Vertices own = {own_rows, vertices->row_count, first, count, {numbers}, 1};
-        reorder_vertices(memory, &own);
+        reorder_vertices(memory, pool, &own);
         return true;
     }
     vertices->numbers[vertices->number_count++] = numbers;
@@ -254,7 +296,7 @@ static bool take_numbers(GiMemory *memory, Vertices *vertices, Numbers numbers,
 }
 
 /* What a leaf's triangles are made of comes to stand side by side. */
-static void reorder_mesh(GiScene *scene, size_t index) {
+static void reorder_mesh(GiScene *scene, GiPool *pool, size_t index) {
     GiMeshStore *meshes = &scene->meshes;
     const GiMesh *mesh = &meshes->meshes.data[index];
     bool last = index + 1 == meshes->meshes.count;
@@ -271,15 +313,15 @@ static void reorder_mesh(GiScene *scene, size_t index) {
     bool alike = true;
     if (mesh->smooth) {
         Numbers normals = {meshes->normals.data[mesh->first_normal], 3};
-        alike &= take_numbers(scene->memory, &vertices, normals, mesh->normal_corners,
+        alike &= take_numbers(scene->memory, pool, &vertices, normals, mesh->normal_corners,
             mesh->first_normal, (uint32_t)normal_end - mesh->first_normal);
     }
     if (mesh->textured) {
         Numbers texcoords = {meshes->texcoords.data[mesh->first_texcoord], 2};
-        alike &= take_numbers(scene->memory, &vertices, texcoords, mesh->texcoord_corners,
+        alike &= take_numbers(scene->memory, pool, &vertices, texcoords, mesh->texcoord_corners,
             mesh->first_texcoord, (uint32_t)texcoord_end - mesh->first_texcoord);
     }
-    if (alike) reorder_vertices(scene->memory, &vertices);
+    if (alike) reorder_vertices(scene->memory, pool, &vertices);
 }
 
 /* ---------------------------------------------------------------- the whole */
@@ -294,10 +336,10 @@ static void reorder_mesh(GiScene *scene, size_t index) {
             scene, world, kind, (double *)(array).data, sizeof *(array).data / sizeof(double));    \
     } while (0)
 
-void gi_reorder(GiScene *scene, GiWorld *world) {
+void gi_reorder(GiScene *scene, GiPool *pool, GiWorld *world) {
     REORDER(GI_SHAPE_SPHERE, scene->spheres);
     REORDER(GI_SHAPE_BOX, scene->boxes);
     REORDER(GI_SHAPE_CONE, scene->cones);
     REORDER(GI_SHAPE_DISC, scene->discs);
-    for (size_t i = 0; i < scene->meshes.meshes.count; i++) reorder_mesh(scene, i);
+    for (size_t i = 0; i < scene->meshes.meshes.count; i++) reorder_mesh(scene, pool, i);
 }

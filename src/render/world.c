@@ -240,7 +240,7 @@ static GlintStatus build(
         if (placed != NULL) memset(placed, 0, meshes * sizeof *placed);
         status = build_trees(world, scene, pool, monitor, placed);
     }
-    if (status == GLINT_OK && !gi_reorder_triangles(scene, world->original, placed)) {
+    if (status == GLINT_OK && !gi_reorder_triangles(scene, pool, world->original, placed)) {
         status = GLINT_ERROR_MEMORY;
     }
     gi_memory_free(memory, placed, meshes * sizeof *placed);
@@ -267,7 +267,7 @@ GlintStatus gi_world_commit(GiWorld *world, GiScene *scene, const GiKernel *kern
     if (!report(monitor, 1)) return gi_error_set(error, GLINT_CANCELLED, "cancelled");
     gi_spread_free_lists(&world->spread, scene);
     gi_array_free(scene->memory, &scene->roots);
-    gi_reorder(scene, world);
+    gi_reorder(scene, pool, world);
     point_shapes(world, scene);
     world->trace = (GiTrace){&world->store.tree, &world->shapes};
     world->view = gi_view_of(&scene->camera);
