@@ -156,6 +156,10 @@ void gi_tree_text(GiReader *reader, GiSpan text, int64_t offset);
 /* An element's whole content, read already. False when it is to be given as text, since it is not
  * the value that belongs there. */
 bool gi_tree_numbers(GiReader *reader, GiVec value, int count);
+/* An element without attributes that holds nothing but numbers, all three events in one. False, and
+ * nothing has happened, when they are to be given one by one: it is not a correct value that may
+ * stand here. */
+bool gi_tree_value(GiReader *reader, GiSpan tag, GiVec value, int count, int64_t offset);
 /* The place of an attribute's name (or of its value) in the start tag that is being handled; length
  * in characters. The tag itself when it cannot be found. */
 GiPlace gi_tree_attribute(GiReader *reader, int index, bool value, int *length);
@@ -165,7 +169,10 @@ void gi_value_begin(GiReader *reader);
 void gi_value_append(GiReader *reader, GiSpan piece, int64_t offset);
 /* Reads the text of the element as its kind. False, with the error reported, when it is wrong. */
 bool gi_value_finish(GiReader *reader, const GiFrame *frame, GiVec *value);
-/* The value of the element, when it is of its kind; otherwise false, and nothing is reported. */
+/* Whether the numbers are a correct value of the element. Some that are not real numbers are left
+ * to their text. */
+bool gi_value_fits(const GiElement *element, GiVec value, int count);
+/* Takes them for the value of the element if they are; otherwise false, and nothing is reported. */
 bool gi_value_take(GiReader *reader, const GiElement *element, GiVec value, int count);
 /* Whether a value passes the element's check; otherwise reports. */
 bool gi_value_check(

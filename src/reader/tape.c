@@ -23,6 +23,17 @@ static GiVec read_vec(const GiTapeEntry *numbers, int count) {
         numbers[0].number, count > 1 ? numbers[1].number : 0, count > 2 ? numbers[2].number : 0);
 }
 
+/* An element that is a value and nothing else, which most elements are: `<radius>1</radius>`. From
+ * behind its start tag; null when it must be taken piece by piece. */
+static const GiTapeEntry *play_value(GiReader *reader, GiSpan tag, const GiTapeEntry *entry,
+    const GiTapeEntry *end, int64_t offset) {
+    if (entry >= end || entry->token.kind != GI_TOKEN_NUMBERS) return NULL;
+    int count = entry->token.count;
+    if (end - entry <= count + 1 || entry[count + 1].token.kind != GI_TOKEN_END) return NULL;
+    GiVec value = read_vec(entry + 1, count);
+    return gi_tree_value(reader, tag, value, count, offset) ? entry + count + 2 : NULL;
+}
+
 void gi_tape_play(GiReader *reader, const GiTape *tape) {
     if (tape->entries.count == 0) return; /* of an empty file there may be no bytes either */
     const char *bytes = (const char *)reader->window.data + (tape->begin - reader->window.base);
@@ -33,13 +44,20 @@ void gi_tape_play(GiReader *reader, const GiTape *tape) {
         int64_t offset = tape->begin + token.at;
         switch ((GiTokenKind)token.kind) {
         case GI_TOKEN_START: {
+            GiSpan tag = {text.data + 1, text.size - 1};
+            if (token.count == 0) {
+                const GiTapeEntry *next = play_value(reader, tag, entry, end, offset);
+                if (next != NULL) {
+                    entry = next;
+                    break;
+                }
+            }
             GiAttribute list[GI_TAPE_ATTRIBUTE_LIMIT];
             for (int i = 0; i < token.count; i++, entry += 2) {
                 list[i].name = (GiSpan){bytes + entry[0].token.at, entry[0].token.size};
                 list[i].value = (GiSpan){bytes + entry[1].token.at, entry[1].token.size};
             }
-            gi_tree_start(
-                reader, (GiSpan){text.data + 1, text.size - 1}, list, token.count, offset);
+            gi_tree_start(reader, tag, list, token.count, offset);
             break;
         }
         case GI_TOKEN_END: gi_tree_end(reader, offset + token.size); break;

@@ -530,3 +530,14 @@ bool gi_tree_numbers(GiReader *reader, GiVec value, int count) {
     const GiFrame *frame = gi_reader_top(reader);
     return frame->skip != GI_SKIP_NONE || gi_value_take(reader, frame->element, value, count);
 }
+
+bool gi_tree_value(GiReader *reader, GiSpan tag, GiVec value, int count, int64_t offset) {
+    if (reader->frames.count == 0 || reader->frames.count >= GI_DEPTH_LIMIT) return false;
+    GiFrame *parent = gi_reader_top(reader);
+    if (parent->skip != GI_SKIP_NONE) return false;
+    const GiElement *element = gi_element_guess(&reader->elements, tag, parent->contexts);
+    if (element == NULL || !gi_value_fits(element, value, count)) return false;
+    reader->evidence |= element->evidence;
+    gi_object_set(reader, parent, element, value, (GiPlace){.offset = offset});
+    return true;
+}

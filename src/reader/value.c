@@ -295,11 +295,13 @@ static bool passes(GiCheck check, GiVec value) {
     return true;
 }
 
-bool gi_value_take(GiReader *reader, const GiElement *element, GiVec value, int count) {
+bool gi_value_fits(const GiElement *element, GiVec value, int count) {
     bool real = element->kind == GI_KIND_REAL || gi_kind_count(element->kind) == 3;
-    if (!real || count != gi_kind_count(element->kind) || !passes(element->check, value)) {
-        return false;
-    }
+    return real && count == gi_kind_count(element->kind) && passes(element->check, value);
+}
+
+bool gi_value_take(GiReader *reader, const GiElement *element, GiVec value, int count) {
+    if (!gi_value_fits(element, value, count)) return false;
     reader->value = value;
     reader->value_ready = true;
     return true;
