@@ -52,15 +52,20 @@ static void put_in_order(GiSphere *spheres, int order, Random *random) {
     }
 }
 
+static void build_input(GiMemory *memory, int thread_count, const GiShapes *shapes,
+    const GiTreeInput *input, GiTreeStore *store) {
+    GiPool *pool;
+    CHECK_INT(gi_pool_create(memory, thread_count, &pool), GLINT_OK);
+    CHECK_INT(gi_tree_build(memory, pool, shapes, input, NULL, store), GLINT_OK);
+    gi_pool_destroy(pool);
+}
+
 static void build(GiMemory *memory, int thread_count, const GiSphere *spheres, GiTreeStore *store) {
     static GiShapeRef refs[SPHERES];
     for (uint32_t i = 0; i < SPHERES; i++) refs[i] = gi_shape_ref(GI_SHAPE_SPHERE, i);
     const GiShapes shapes = {.spheres = spheres};
     const GiTreeInput input = {.refs = refs, .ref_count = SPHERES};
-    GiPool *pool;
-    CHECK_INT(gi_pool_create(memory, thread_count, &pool), GLINT_OK);
-    CHECK_INT(gi_tree_build(memory, pool, &shapes, &input, NULL, store), GLINT_OK);
-    gi_pool_destroy(pool);
+    build_input(memory, thread_count, &shapes, &input, store);
 }
 
 static void order_of_input(void) {
@@ -89,23 +94,43 @@ static void order_of_input(void) {
     CHECK_INT(atomic_load(&memory.used), 0);
 }
 
+/* Spheres here, boxes there, and both mixed in between, so that there are blocks of both kinds. */
+static void build_mixed(GiMemory *memory, int thread_count, GiTreeStore *store) {
+    static GiSphere spheres[SPHERES];
+    static GiBox boxes[SPHERES];
+    static GiShapeRef refs[SPHERES];
+    Random random = {3};
+    for (uint32_t i = 0; i < SPHERES; i++) {
+        GiSphere sphere = spheres[i] = make_sphere(&random, EVEN, NULL);
+        const GiVec half = {sphere.radius, sphere.radius, sphere.radius};
+        boxes[i] = (GiBox){gi_sub(sphere.center, half), gi_add(sphere.center, half)};
+        bool box = sphere.center.x + random_real(&random, -0.5, 0.5) > 0;
+        refs[i] = gi_shape_ref(box ? GI_SHAPE_BOX : GI_SHAPE_SPHERE, i);
+    }
+    const GiShapes shapes = {.spheres = spheres, .boxes = boxes};
+    const GiTreeInput input = {.refs = refs, .ref_count = SPHERES};
+    build_input(memory, thread_count, &shapes, &input, store);
+}
+
+#define SAME(array, count) (memcmp((a->array), (b->array), (count) * sizeof *(a->array)) == 0)
+
 /* Byte for byte. */
 static void number_of_threads(void) {
-    static GiSphere spheres[SPHERES];
-    Random random = {3};
-    for (int i = 0; i < SPHERES; i++) spheres[i] = make_sphere(&random, EVEN, NULL);
     GiMemory memory;
     gi_memory_init(&memory, NULL, 0);
     GiTreeStore one, many;
-    build(&memory, 1, spheres, &one);
+    build_mixed(&memory, 1, &one);
+    CHECK(one.tree.sphere_block_count > 1000 && one.tree.box_block_count > 1000);
     for (int threads = 2; threads < 6; threads++) {
-        build(&memory, threads, spheres, &many);
+        build_mixed(&memory, threads, &many);
         const GiTree *a = &one.tree, *b = &many.tree;
         CHECK_INT(a->node_count, b->node_count);
         CHECK_INT(a->sphere_block_count, b->sphere_block_count);
-        CHECK(memcmp(a->nodes, b->nodes, a->node_count * sizeof *a->nodes) == 0);
-        size_t size = a->sphere_block_count * sizeof *a->sphere_blocks;
-        CHECK(memcmp(a->sphere_blocks, b->sphere_blocks, size) == 0);
+        CHECK_INT(a->box_block_count, b->box_block_count);
+        CHECK(one.leaf_count == many.leaf_count && one.sah_cost == many.sah_cost);
+        CHECK(SAME(nodes, a->node_count));
+        CHECK(SAME(sphere_blocks, a->sphere_block_count));
+        CHECK(SAME(box_blocks, a->box_block_count));
         gi_tree_free(&memory, &many);
     }
     gi_tree_free(&memory, &one);
