@@ -237,9 +237,10 @@ static inline void hits_store(const Hits *hits, GiPoints *to, int at) {
 }
 
 static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, const uint32_t *rays,
-    int count, bool spared, bool second_nappe_geometric, GiPoints *to) {
+    int count, GiOwn own, bool second_nappe_geometric, GiPoints *to) {
     GiShapeKind kind = gi_shape_kind((GiShapeRef){bundle->shape[rays[0]]});
     const U index_bits = u_of(GI_SHAPE_INDEX_LIMIT - 1), none = u_of(GI_SHAPE_NONE);
+    const U skip_instance = own == GI_OWN_LEFT ? u_of(GI_LEFT) : none;
     for (int i = 0; i < count; i += GI_DOUBLES) {
         U ray = stream_load(rays, i, count), shape = u_gather(bundle->shape, ray);
         Hits hits; /* no initializer, which would clear the rest of it each time */
@@ -259,8 +260,8 @@ static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, co
         int at = to->count + i;
         hits_store(&hits, to, at);
         u_store(to->pixel + at, u_gather(bundle->pixel, ray));
-        u_store(to->skip + at, spared ? shape : none);
-        u_store(to->skip_instance + at, none);
+        u_store(to->skip + at, own != GI_OWN_MET ? shape : none);
+        u_store(to->skip_instance + at, skip_instance);
     }
     to->count += count;
 }

@@ -375,6 +375,15 @@ static inline void meet_plain(const GiStage *stage, uint32_t i, uint32_t shader_
     add_point(scratch, &at, direction, &place);
 }
 
+/* What shadow rays do with the shape they start on. */
+static GiOwn own_of(const GiRules *rules, GiShapeRef shape) {
+    switch (gi_shape_kind(shape)) {
+    case GI_SHAPE_SPHERE: return rules->sphere_shadows_itself ? GI_OWN_MET : GI_OWN_SPARED;
+    case GI_SHAPE_TRIANGLE: return rules->shadow_distance > 0 ? GI_OWN_MET : GI_OWN_LEFT;
+    default: return GI_OWN_MET;
+    }
+}
+
 /* The same for surfaces of one kind that do not shine, many at a time. */
 static void meet_dark(
     const GiStage *stage, const uint32_t *rays, int count, uint32_t shader_index) {
@@ -382,10 +391,9 @@ static void meet_dark(
     GiTileScratch *scratch = stage->scratch;
     int begin = scratch->points.count;
     extend_segment(scratch, shader_index, count);
-    bool sphere = gi_shape_kind((GiShapeRef){scratch->bundle.shape[rays[0]]}) == GI_SHAPE_SPHERE;
     world->kernel->points(&world->shapes, &scratch->bundle, rays, count,
-        sphere && !world->rules->sphere_shadows_itself, world->rules->cone_geometric,
-        &scratch->points);
+        own_of(world->rules, (GiShapeRef){scratch->bundle.shape[rays[0]]}),
+        world->rules->cone_geometric, &scratch->points);
     for (int i = begin; i < begin + count; i++) {
         scratch->spots[i] = (GiSpot){shader_index, 1};
         if (scratch->weighted) scratch->factors[i] = white();
