@@ -412,6 +412,19 @@ static inline uint32_t key_of(const GiWorld *world, GiShapeRef shape, uint32_t i
            (known && instance == GI_SHAPE_NONE ? (uint32_t)kind : GI_SHAPE_PLACED);
 }
 
+/* The key of all triangles of a mesh that is of no instance: neighbours are mostly of one. */
+typedef struct MeshKey {
+    uint32_t first, count; /* bits of the first triangle */
+    uint32_t key;
+} MeshKey;
+
+static MeshKey mesh_key(const GiWorld *world, GiShapeRef triangle) {
+    const GiShapes *shapes = &world->shapes;
+    const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, gi_shape_index(triangle))];
+    return (MeshKey){gi_shape_ref(GI_SHAPE_TRIANGLE, mesh->first_triangle).bits,
+        mesh->triangle_count, key_of(world, triangle, GI_SHAPE_NONE)};
+}
+
 /* The rays of one key. */
 static void meet_group(const GiStage *stage, uint32_t key, const uint32_t *rays, int count) {
     const GiTileScratch *scratch = stage->scratch;
@@ -443,6 +456,7 @@ void gi_surface_bundle(const GiStage *stage) {
     uint32_t keys[GI_BUNDLE_ROOM], rays[GI_BUNDLE_ROOM];
     int ends[GI_BUNDLE_SIZE];
     if (gi_stage_records(stage)) gi_record_camera(stage);
+    MeshKey last = {0, 0, 0};
     for (int i = 0; i < bundle->count; i++) {
         GiShapeRef shape = {bundle->shape[i]};
         keys[i] = GI_NO_KEY;
@@ -452,8 +466,12 @@ void gi_surface_bundle(const GiStage *stage) {
         } else if (gi_shape_kind(shape) == GI_SHAPE_RECTANGLE) {
             Met met = met_of_bundle(bundle, (uint32_t)i);
             show_first(stage, met.pixel, rectangle_emission(stage, NULL, &met));
-        } else {
+        } else if (gi_shape_kind(shape) != GI_SHAPE_TRIANGLE ||
+                   bundle->instance[i] != GI_SHAPE_NONE) {
             keys[i] = key_of(world, shape, bundle->instance[i]);
+        } else {
+            if (shape.bits - last.first >= last.count) last = mesh_key(world, shape);
+            keys[i] = last.key;
         }
     }
     int count = world->kernel->group(keys, bundle->count, rays, ends);
