@@ -159,14 +159,27 @@ static inline void tile_leaf(Tile *tile, uint32_t child) {
     tile_noted(tile, count);
 }
 
-/* Leaves of triangles wait for each other while their corners are on the way from memory. */
-enum { LEAF_BATCH = 8 };
+/* Leaves of triangles wait for each other while their corners are on the way from memory. Which
+ * corners these are is on its way itself since the leaf came onto the stack, and the last ones wait
+ * for that too. */
+enum { LEAF_BATCH = 8, LEAF_LAG = 3 };
 typedef struct Leaves {
     int count;
     StackEntry entry[LEAF_BATCH];
 } Leaves;
 
+static inline void prefetch_corners(const GiTriangles *triangles, uint32_t child) {
+    const uint32_t(*rows)[3] = triangles->corners + gi_child_first(child);
+    for (uint32_t i = 0; i < gi_child_count(child); i++) {
+        for (int k = 0; k < 3; k++) prefetch(triangles->positions[rows[i][k]]);
+    }
+}
+
 static inline void tile_leaves(Tile *tile, Leaves *leaves) {
+    int first = leaves->count > LEAF_LAG ? leaves->count - LEAF_LAG : 0;
+    for (int i = first; i < leaves->count; i++) {
+        prefetch_corners(&tile->shapes->triangles, leaves->entry[i].child);
+    }
     for (int i = 0; i < leaves->count; i++) {
         if (leaves->entry[i].enter <= tile->frustum.far) tile_leaf(tile, leaves->entry[i].child);
     }
@@ -174,11 +187,8 @@ static inline void tile_leaves(Tile *tile, Leaves *leaves) {
 }
 
 static inline void tile_put_off(Tile *tile, StackEntry entry, Leaves *leaves) {
-    const GiTriangles *triangles = &tile->shapes->triangles;
-    const uint32_t(*rows)[3] = triangles->corners + gi_child_first(entry.child);
-    for (uint32_t i = 0; i < gi_child_count(entry.child); i++) {
-        for (int k = 0; k < 3; k++) prefetch(triangles->positions[rows[i][k]]);
-    }
+    int ready = leaves->count - LEAF_LAG;
+    if (ready >= 0) prefetch_corners(&tile->shapes->triangles, leaves->entry[ready].child);
     leaves->entry[leaves->count++] = entry;
     if (leaves->count == LEAF_BATCH) tile_leaves(tile, leaves);
 }
