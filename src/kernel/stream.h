@@ -264,8 +264,8 @@ static inline void hits_load(Hits *hits, const GiBundle *bundle, U ray, int firs
  * several vectors under way, each of which waits for a root and a quotient. */
 static void points_normalize(GiPoints *points, int begin, int end) {
     for (int i = begin; i < end; i += GI_DOUBLES) {
-        Wide n = wide_normalize((Wide){
-            r_load(points->nx + i), r_load(points->ny + i), r_load(points->nz + i)});
+        Wide n = wide_normalize(
+            (Wide){r_load(points->nx + i), r_load(points->ny + i), r_load(points->nz + i)});
         r_store(points->nx + i, n.x), r_store(points->ny + i, n.y), r_store(points->nz + i, n.z);
     }
 }
