@@ -14,6 +14,7 @@ struct GlintTracer {
     GiTileControl control;
     GiRenderCounts counts;
     GiRenderTarget target;
+    float depth; /* of no pixel: who asks for depths has t worked out, as the other tracer does */
     GiStage stage;
 };
 
@@ -28,6 +29,7 @@ GlintTracer *glint_tracer_create(const GiWorld *world) {
     tracer->world = world;
     tracer->control.stop = &tracer->stop;
     tracer->target.samples = 1;
+    tracer->target.depth = &tracer->depth;
     GiTileScratch *scratch = gi_tile_scratch_create(world, &tracer->target);
     if (scratch == NULL) message_fail("not enough memory");
     scratch->bundle.stop = NULL;

@@ -51,6 +51,7 @@
     X(camera) \
     X(golden) \
     X(explain) \
+    X(facets) \
     X(tiles) \
     X(api) \
     X(mistake) \

@@ -45,8 +45,8 @@ static inline void tile_flush(Tile *tile) {
         COUNT(shapes, __builtin_popcount(rays));
         if (rays != 0) tile_test(tile, test->shape, (int)test->packet, rays);
     }
-    tile_count(tile, tile->test_count);
-    tile->test_count = 0;
+    tile_count(tile, tile->test_count + tile->taken);
+    tile->test_count = tile->taken = 0;
     if (tile->emptied > 0) tile_enclose(tile);
     tile->emptied = 0;
     bool changed = false;
@@ -87,7 +87,7 @@ static inline void tile_pairs(
 enum { EMPTIED_BATCH = 2 };
 static inline void tile_noted(Tile *tile, int tests) {
     tile->test_count = tests;
-    if (tests >= TEST_BATCH || tile->emptied >= EMPTIED_BATCH) tile_flush(tile);
+    if (tests + tile->taken >= TEST_BATCH || tile->emptied >= EMPTIED_BATCH) tile_flush(tile);
 }
 
 static inline void tile_block(Tile *tile, uint32_t child) {
@@ -145,28 +145,41 @@ static inline void tile_leaf(Tile *tile, uint32_t child) {
     uint32_t first = gi_child_first(child);
     COUNT(leaves, 1);
     unsigned bits = tile_triangles(&tile->frustum, &tile->shapes->triangles, first,
-        gi_child_count(child), &rectangles, &edges);
+        gi_child_count(child), tile->any, &rectangles, &edges);
     Pairs pairs;
     tile_pairs(tile, &rectangles, bits, &pairs);
     int count = tile->test_count;
     for (int i = 0; i < pairs.count; i++) {
         uint32_t lane = pairs.pair[i] / GI_PACKET_COUNT, packet = pairs.pair[i] % GI_PACKET_COUNT;
         GiShapeRef ref = gi_shape_ref(GI_SHAPE_TRIANGLE, first + lane);
-        unsigned rays = tile_rays_inside(tile, &rectangles, &edges, (int)lane, (int)packet);
+        unsigned rays = tile_rays_at(tile, ref, &rectangles, &edges, (int)lane, (int)packet);
         tile->tests[count] = (Test){ref, packet, rays};
         count += rays != 0;
     }
     tile_noted(tile, count);
 }
 
-/* Leaves of triangles wait for each other while their corners are on the way from memory. */
-enum { LEAF_BATCH = 8 };
+/* Leaves of triangles wait for each other while their corners are on the way from memory. Which
+ * corners these are is on its way itself since the leaf came onto the stack, and the last ones wait
+ * for that too. */
+enum { LEAF_BATCH = 8, LEAF_LAG = 3 };
 typedef struct Leaves {
     int count;
     StackEntry entry[LEAF_BATCH];
 } Leaves;
 
+static inline void prefetch_corners(const GiTriangles *triangles, uint32_t child) {
+    const uint32_t(*rows)[3] = triangles->corners + gi_child_first(child);
+    for (uint32_t i = 0; i < gi_child_count(child); i++) {
+        for (int k = 0; k < 3; k++) prefetch(triangles->positions[rows[i][k]]);
+    }
+}
+
 static inline void tile_leaves(Tile *tile, Leaves *leaves) {
+    int first = leaves->count > LEAF_LAG ? leaves->count - LEAF_LAG : 0;
+    for (int i = first; i < leaves->count; i++) {
+        prefetch_corners(&tile->shapes->triangles, leaves->entry[i].child);
+    }
     for (int i = 0; i < leaves->count; i++) {
         if (leaves->entry[i].enter <= tile->frustum.far) tile_leaf(tile, leaves->entry[i].child);
     }
@@ -174,13 +187,17 @@ static inline void tile_leaves(Tile *tile, Leaves *leaves) {
 }
 
 static inline void tile_put_off(Tile *tile, StackEntry entry, Leaves *leaves) {
-    const GiTriangles *triangles = &tile->shapes->triangles;
-    const uint32_t(*rows)[3] = triangles->corners + gi_child_first(entry.child);
-    for (uint32_t i = 0; i < gi_child_count(entry.child); i++) {
-        for (int k = 0; k < 3; k++) prefetch(triangles->positions[rows[i][k]]);
-    }
+    int ready = leaves->count - LEAF_LAG;
+    if (ready >= 0) prefetch_corners(&tile->shapes->triangles, leaves->entry[ready].child);
     leaves->entry[leaves->count++] = entry;
     if (leaves->count == LEAF_BATCH) tile_leaves(tile, leaves);
+}
+
+/* What is still open of t. */
+static inline void tile_close(Tile *tile) {
+    for (int k = 0; k < GI_PACKET_COUNT; k++) {
+        if (tile->open[k] != 0) tile_settle(tile, k, tile->open[k]);
+    }
 }
 
 static inline void tile_walk(Tile *tile) {
@@ -257,7 +274,7 @@ static inline void bundle_run(Tile *tile) {
     GiBundle *bundle = tile->bundle;
     double toward = tile->any ? -1 : 1;
     tile->scale = tile->tree->scale;
-    tile->test_count = tile->tests_made = 0;
+    tile->test_count = tile->tests_made = tile->taken = 0;
     tile->emptied = 0;
     tile->stopped = false;
     for (int i = 0; i < GI_PACKET_COUNT / 32; i++) tile->nearer[i] = 0;
@@ -273,6 +290,7 @@ static inline void bundle_run(Tile *tile) {
         if (tile->any ? tile_packets(tile, true, u, v) : tile_packets(tile, false, u, v)) {
             tile_planes(tile, u, v, w);
             tile_walk(tile);
+            if (!tile->any && !bundle->without_t) tile_close(tile);
             return;
         }
     }

@@ -87,11 +87,19 @@ static inline bool any_of(unsigned bits, int j) {
 /* How far the rays of a packet still look. */
 static inline void packet_refresh_far(Tile *tile, int packet) {
     const GiBundle *bundle = tile->bundle;
-    const R scale = R_OF(tile->scale * (1 + GI_WIDER));
+    const R scale = R_OF(tile->scale);
+    const unsigned known = ~tile->open[packet] & 0xffff;
     float *far = tile->far + packet * GI_PACKET_SIZE;
-    for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
-        int i = packet * GI_PACKET_SIZE + j;
-        r_store_floats(far + j, r_load(bundle->t + i) * tile_depth(tile, i) * scale);
+    for (int j = 0; j < GI_PACKET_SIZE && known != 0; j += GI_WIDEST) {
+        R depth[GI_PARTS];
+        for (int k = 0; k < GI_PARTS; k++) {
+            int i = packet * GI_PACKET_SIZE + j + k * GI_DOUBLES;
+            depth[k] = r_load(bundle->t + i) * tile_depth(tile, i) * scale;
+        }
+        P end = p_rounded(depth);
+        p_store_where(far + j, known >> j, end * p_of(1 + GI_WIDER));
+        p_store_where(
+            tile->surely + packet * GI_PACKET_SIZE + j, known >> j, end * p_of(1 - GI_WIDER));
     }
     tile->packets.far[packet] = f_highest(far, GI_PACKET_SIZE);
 }
@@ -104,9 +112,35 @@ static inline void packet_stop(Tile *tile, int packet, unsigned rays) {
     tile->emptied++;
 }
 
+/* Works out the t of rays of a packet that have come to triangles: as the exact test does, each ray
+ * with a triangle of its own. */
+static NOINLINE void tile_settle(Tile *tile, int packet, unsigned rays) {
+    GiBundle *bundle = tile->bundle;
+    const GiTriangles *triangles = &tile->shapes->triangles;
+    tile->open[packet] &= ~rays;
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
+        if (!any_of(rays, j)) continue;
+        int i = packet * GI_PACKET_SIZE + j;
+        const float *rows[3][GI_DOUBLES];
+        uint32_t first = bundle->shape[i + lowest_bit(rays >> j)];
+        for (int lane = 0; lane < GI_DOUBLES; lane++) {
+            GiShapeRef ref = {rays >> (j + lane) & 1 ? bundle->shape[i + lane] : first};
+            const uint32_t *corners = triangles->corners[gi_shape_index(ref)];
+            for (int k = 0; k < 3; k++) rows[k][lane] = triangles->positions[corners[k]];
+        }
+        R corners[3][3], t;
+        for (int k = 0; k < 3; k++) r_rows(rows[k], corners[k]);
+        const gi_wide_Ray ray = tile_ray(tile, GI_SHAPE_TRIANGLE, i);
+        gi_wide_triangle_at(corners, &ray, tile_from(tile, i), tile_to(tile, i), &t);
+        r_store(bundle->t + i, R_SELECT(m_from_bits(rays >> j), t, r_load(bundle->t + i)));
+    }
+}
+
 /* What the rays from i on meet of a shape: what is nearer becomes their best. */
 static inline void take_nearer(Tile *tile, GiShapeRef ref, int i, M hit, R t) {
     GiBundle *bundle = tile->bundle;
+    unsigned open = m_bits(hit) & tile->open[i / GI_PACKET_SIZE] >> i % GI_PACKET_SIZE;
+    if (open != 0) tile_settle(tile, i / GI_PACKET_SIZE, open << i % GI_PACKET_SIZE);
     R best = r_load(bundle->t + i);
     M nearer = hit & R_LESS(t, best);
     unsigned bits = m_bits(nearer), ties = m_bits(hit & R_EQUAL(t, best));
@@ -135,7 +169,7 @@ static inline void test_closest(
         if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
         R t;
-        M hit = tile_meets(tile, ref, corners, i, &t);
+        M hit = tile_meets(tile, ref, corners, i, &t) & m_from_bits(rays >> j);
         take_nearer(tile, ref, i, hit, t);
     }
 }

@@ -23,7 +23,7 @@ typedef struct Frustum {
     float axis[3][3]; /* u, v, w as rows */
     float plane[4][3];
     float a0, a1, b0, b1, far;
-    float start;   /* for any: depth from which on nothing is before what the rays look at */
+    float start;   /* depth from which on nothing is before what the rays look at */
     float lost;    /* of a depth, by what doubles round */
     SeenFrom seen; /* triangles, from the apex */
 } Frustum;
@@ -50,7 +50,9 @@ typedef struct Tile {
     uint32_t inverse_known[GI_BUNDLE_SIZE / 32], square_known[GI_BUNDLE_SIZE / 32];
     float a[GI_BUNDLE_ROOM], b[GI_BUNDLE_ROOM]; /* the rays as points */
     float far[GI_BUNDLE_ROOM];                  /* depth that they do not look beyond, */
-    float surely[GI_BUNDLE_ROOM];               /* and for any one that they certainly look up to */
+    float surely[GI_BUNDLE_ROOM];               /* and one that they certainly look up to */
+    unsigned open[GI_PACKET_COUNT]; /* bits of rays that have come to a triangle, shape and instance
+                                       of the bundle, but their t is not worked out yet */
     Packets packets;
     Groups groups;
     Frustum frustum;
@@ -61,6 +63,7 @@ typedef struct Tile {
     uint32_t nearer[GI_PACKET_COUNT / 32]; /* bits of packets whose rays have met something since
                                               they were looked at */
     int tests_made;                        /* since `stop` was asked */
+    int taken;                             /* packets with rays that took a triangle, not flushed */
     int test_count;
     Test tests[TEST_LIMIT];
 } Tile;
@@ -153,6 +156,7 @@ static inline void rays_place(Tile *tile, bool any, int i, GiVec u, GiVec v, M *
             *start = R_MAX(*start, (one - r_load(bundle->t_max + at)) * depth[k]);
         } else {
             to = r_load(bundle->t + at);
+            *start = R_MAX(*start, R_OF(bundle->start) * depth[k]);
         }
         end[k] = to * depth[k] * R_OF(tile->scale);
     }
@@ -174,6 +178,7 @@ static inline void rays_place(Tile *tile, bool any, int i, GiVec u, GiVec v, M *
         p_store(tile->surely + i, p_max(far * p_of(1 - GI_WIDER) - lost, p_of(0)));
     } else {
         p_store(tile->far + i, far * p_of(1 + GI_WIDER));
+        p_store(tile->surely + i, far * p_of(1 - GI_WIDER));
     }
 }
 
@@ -186,7 +191,7 @@ static inline bool tile_packets(Tile *tile, bool any, GiVec u, GiVec v) {
     for (int k = 0; k < GI_PACKET_COUNT; k++) {
         if (k * GI_PACKET_SIZE >= bundle->count) {
             packet_clear(packets, k);
-            tile->alive[k] = 0;
+            tile->alive[k] = tile->open[k] = 0;
             continue;
         }
         int first = k * GI_PACKET_SIZE;
@@ -203,6 +208,7 @@ static inline bool tile_packets(Tile *tile, bool any, GiVec u, GiVec v) {
         packets->b0[k] -= GI_WIDER * (1 + fabsf(packets->b0[k]));
         packets->b1[k] += GI_WIDER * (1 + fabsf(packets->b1[k]));
         tile->alive[k] = 0xffff;
+        tile->open[k] = 0;
     }
     int rest = bundle->count % GI_PACKET_SIZE;
     if (rest != 0) tile->alive[bundle->count / GI_PACKET_SIZE] = (1u << rest) - 1;

@@ -16,10 +16,12 @@ static inline double step_up(double t) {
 }
 
 /* Takes the rays of one test into the instance's space, appending them to the inner bundle. */
-static inline void take_inside(const Tile *tile, const Test *test, const GiAffine *to_object,
-    GiBundle *inner, uint16_t *from) {
+static inline void take_inside(
+    Tile *tile, const Test *test, const GiAffine *to_object, GiBundle *inner, uint16_t *from) {
     const GiBundle *bundle = tile->bundle;
     unsigned rays = test->rays & tile->alive[test->packet];
+    unsigned open = rays & tile->open[test->packet];
+    if (open != 0) tile_settle(tile, (int)test->packet, open);
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         if (!any_of(rays, j)) continue;
         int first = (int)test->packet * GI_PACKET_SIZE + j;
@@ -98,6 +100,7 @@ static void tile_instance(Tile *tile, int first) {
     inner.start = tile->bundle->start;
     inner.apex = gi_affine_point(to_object, tile->bundle->apex);
     inner.side = gi_affine_vector(to_object, tile->bundle->side);
+    inner.without_t = false;
     inner.stop = tile->bundle->stop;
     inner.stop_context = tile->bundle->stop_context;
     /* Sixteen roundings of the numbers that a point's image is the sum of. */

@@ -22,7 +22,7 @@ typedef struct GiTraceRay {
     GiVec origin, direction; /* any length but zero */
     double t_min, t_max;
     /* What the ray does not meet: bits of a shape, or GI_SHAPE_NONE, and its instance, or
-     * GI_SHAPE_NONE. */
+     * GI_SHAPE_NONE; or GI_LEFT (points.h). */
     uint32_t skip, skip_instance;
 } GiTraceRay;
 
@@ -38,7 +38,8 @@ typedef struct GiTraceHit {
  *     any       the rays end there: origin + direction is the apex, t_max at most 1 (shadow rays
  *               of a point light)
  * In: for closest the directions, start, and in t how far each ray looks; for any everything up to
- * skip_instance. Out: shape (GI_SHAPE_NONE: nothing met) and, for closest, instance and t. */
+ * skip_instance. Out: shape (GI_SHAPE_NONE: nothing met) and, for closest, instance and t; without
+ * t it stays what it is for some of those rays that have met triangles. */
 typedef struct GiBundle {
     _Alignas(64) double ox[GI_BUNDLE_ROOM];
     double oy[GI_BUNDLE_ROOM], oz[GI_BUNDLE_ROOM];
@@ -52,6 +53,7 @@ typedef struct GiBundle {
     GiVec apex;
     double start;
     GiVec side; /* a direction the packets are aligned with; zero: none known */
+    bool without_t;
     /* Asked every few thousand exact tests, when it is not null; true: the bundle may stay
      * unfinished. */
     bool (*stop)(const void *context);
@@ -80,10 +82,11 @@ typedef struct GiKernel {
      * left out. Returns how many keys there are. `keys` and `places` have GI_BUNDLE_ROOM. */
     int (*group)(const uint32_t *keys, int count, uint32_t *places, int *ends);
     /* Appends the points where rays of the bundle, named by their indices, met spheres, boxes,
-     * cones or triangles (all of one kind, not placed, not an instance's). `spared`: shadow rays do
-     * not meet the shape they start on. */
+     * cones or triangles (all of one kind, not placed, not an instance's). `own`: what shadow rays
+     * do with the shape they start on; GI_OWN_LEFT, of triangles alone, says that they look from
+     * the points' errors on. */
     void (*points)(const GiShapes *shapes, const GiBundle *bundle, const uint32_t *rays, int count,
-        bool spared, bool second_nappe_geometric, GiPoints *points);
+        GiOwn own, bool second_nappe_geometric, GiPoints *points);
     /* What the light adds to the points begin to end - 1, all of one shader, as shade/shade.h has
      * it to the last bit: into *lit, whose list goes on with those to which it is not nothing. None
      * arrives as yet. */

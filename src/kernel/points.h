@@ -12,6 +12,15 @@ enum {
     GI_POINT_ROOM = GI_POINT_LIMIT + 16 /* kernels read and write whole vectors */
 };
 
+/* In the place of the instance of what a ray does not meet: it is a triangle that the ray may well
+ * meet, of no instance, but begins on: at a point that kernel->points made, and looks from the
+ * error of that point on. Kernels that can tell that rounding does not bring it back need not test
+ * the two. */
+#define GI_LEFT (UINT32_MAX - 1)
+
+/* What a shadow ray does with the shape it starts on. */
+typedef enum GiOwn { GI_OWN_MET, GI_OWN_SPARED, GI_OWN_LEFT } GiOwn;
+
 /* Of both, vectors begin on a line of the cache. */
 typedef struct GiPoints {
     _Alignas(64) double px[GI_POINT_ROOM];
@@ -21,7 +30,7 @@ typedef struct GiPoints {
     double error[GI_POINT_ROOM]; /* distance within which a ray may meet its own surface */
     double red[GI_POINT_ROOM], green[GI_POINT_ROOM], blue[GI_POINT_ROOM]; /* what it shows so far */
     uint32_t pixel[GI_POINT_ROOM];
-    /* What shadow rays from here do not meet, or GI_SHAPE_NONE. */
+    /* What shadow rays from here do not meet, or GI_SHAPE_NONE; or GI_LEFT for its instance. */
     uint32_t skip[GI_POINT_ROOM], skip_instance[GI_POINT_ROOM];
     int count;
 } GiPoints;

@@ -75,7 +75,7 @@ static int GI_KERNEL(group)(const uint32_t *keys, int count, uint32_t *places, i
 typedef struct Hits {
     Wide o, d, p, n;
     R t, size; /* size: of the numbers beside the point's own */
-    U shape;
+    U shape, pixel;
 } Hits;
 
 #define STREAM_GATHER(member) r_gather(&(member), hits->shape, stride)
@@ -170,8 +170,9 @@ static inline void hits_rows(const float *const rows[GI_DOUBLES], int count, R c
     }
 }
 
-/* As triangle_point. Mostly all hits are on one triangle. */
-static inline void hits_triangles(Hits *hits, const GiShapes *shapes) {
+/* As triangle_point, but the normal is not yet of unit length. Often all hits are on one triangle,
+ * and mostly on the mesh of those before. */
+static inline void hits_triangles(Hits *hits, const GiShapes *shapes, const GiMesh **last) {
     const float *corners[3][GI_DOUBLES], *normals[3][GI_DOUBLES];
     uint32_t triangles[GI_DOUBLES];
     unsigned smooth = 0;
@@ -180,7 +181,10 @@ static inline void hits_triangles(Hits *hits, const GiShapes *shapes) {
     for (int k = 0; k < count; k++) {
         uint32_t triangle = triangles[k], row[3];
         const uint32_t *own = shapes->triangles.corners[triangle];
-        const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, triangle)];
+        const GiMesh *mesh = *last;
+        if (triangle - mesh->first_triangle >= mesh->triangle_count) {
+            *last = mesh = &shapes->meshes[gi_shape_mesh(shapes, triangle)];
+        }
         bool has_normals = gi_triangle_normals(shapes, triangle, mesh, row);
         smooth |= (unsigned)has_normals << k;
         for (int i = 0; i < 3; i++) {
@@ -223,7 +227,6 @@ static inline void hits_triangles(Hits *hits, const GiShapes *shapes) {
         hits->n = (Wide){R_SELECT(blended, blend.x, hits->n.x),
             R_SELECT(blended, blend.y, hits->n.y), R_SELECT(blended, blend.z, hits->n.z)};
     }
-    hits->n = wide_normalize(hits->n);
 }
 
 static inline void hits_store(const Hits *hits, GiPoints *to, int at) {
@@ -236,32 +239,62 @@ static inline void hits_store(const Hits *hits, GiPoints *to, int at) {
     r_store(to->red + at, zero), r_store(to->green + at, zero), r_store(to->blue + at, zero);
 }
 
+/* The rays of the bundle that `ray` names, which often stand side by side. */
+static inline void hits_load(Hits *hits, const GiBundle *bundle, U ray, int first) {
+    if (u_is_run(ray)) {
+        hits->o = (Wide){
+            r_load(bundle->ox + first), r_load(bundle->oy + first), r_load(bundle->oz + first)};
+        hits->d = (Wide){
+            r_load(bundle->dx + first), r_load(bundle->dy + first), r_load(bundle->dz + first)};
+        hits->t = r_load(bundle->t + first);
+        hits->shape = u_load(bundle->shape + first);
+        hits->pixel = u_load(bundle->pixel + first);
+    } else {
+        hits->o = (Wide){r_gather(bundle->ox, ray, 1), r_gather(bundle->oy, ray, 1),
+            r_gather(bundle->oz, ray, 1)};
+        hits->d = (Wide){r_gather(bundle->dx, ray, 1), r_gather(bundle->dy, ray, 1),
+            r_gather(bundle->dz, ray, 1)};
+        hits->t = r_gather(bundle->t, ray, 1);
+        hits->shape = u_gather(bundle->shape, ray);
+        hits->pixel = u_gather(bundle->pixel, ray);
+    }
+}
+
+/* Makes the normals of points unit. A loop of its own: with nothing else in it the processor has
+ * several vectors under way, each of which waits for a root and a quotient. */
+static void points_normalize(GiPoints *points, int begin, int end) {
+    for (int i = begin; i < end; i += GI_DOUBLES) {
+        Wide n = wide_normalize(
+            (Wide){r_load(points->nx + i), r_load(points->ny + i), r_load(points->nz + i)});
+        r_store(points->nx + i, n.x), r_store(points->ny + i, n.y), r_store(points->nz + i, n.z);
+    }
+}
+
 static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, const uint32_t *rays,
-    int count, bool spared, bool second_nappe_geometric, GiPoints *to) {
+    int count, GiOwn own, bool second_nappe_geometric, GiPoints *to) {
     GiShapeKind kind = gi_shape_kind((GiShapeRef){bundle->shape[rays[0]]});
     const U index_bits = u_of(GI_SHAPE_INDEX_LIMIT - 1), none = u_of(GI_SHAPE_NONE);
+    const U skip_instance = own == GI_OWN_LEFT ? u_of(GI_LEFT) : none;
+    const GiMesh *mesh = shapes->meshes;
     for (int i = 0; i < count; i += GI_DOUBLES) {
-        U ray = stream_load(rays, i, count), shape = u_gather(bundle->shape, ray);
         Hits hits; /* no initializer, which would clear the rest of it each time */
+        hits_load(&hits, bundle, stream_load(rays, i, count), (int)rays[i]);
+        U shape = hits.shape;
         hits.shape = shape & index_bits;
-        hits.o = (Wide){r_gather(bundle->ox, ray, 1), r_gather(bundle->oy, ray, 1),
-            r_gather(bundle->oz, ray, 1)};
-        hits.d = (Wide){r_gather(bundle->dx, ray, 1), r_gather(bundle->dy, ray, 1),
-            r_gather(bundle->dz, ray, 1)};
-        hits.t = r_gather(bundle->t, ray, 1);
         hits.p = wide_along(hits.o, hits.d, hits.t);
         switch (kind) {
         case GI_SHAPE_SPHERE: hits_spheres(&hits, shapes->spheres); break;
         case GI_SHAPE_BOX: hits_boxes(&hits, shapes->boxes); break;
-        case GI_SHAPE_TRIANGLE: hits_triangles(&hits, shapes); break;
+        case GI_SHAPE_TRIANGLE: hits_triangles(&hits, shapes, &mesh); break;
         default: hits_cones(&hits, shapes->cones, second_nappe_geometric); break;
         }
         int at = to->count + i;
         hits_store(&hits, to, at);
-        u_store(to->pixel + at, u_gather(bundle->pixel, ray));
-        u_store(to->skip + at, spared ? shape : none);
-        u_store(to->skip_instance + at, none);
+        u_store(to->pixel + at, hits.pixel);
+        u_store(to->skip + at, own != GI_OWN_MET ? shape : none);
+        u_store(to->skip_instance + at, skip_instance);
     }
+    if (kind == GI_SHAPE_TRIANGLE) points_normalize(to, to->count, to->count + count);
     to->count += count;
 }
 

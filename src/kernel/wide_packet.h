@@ -28,45 +28,6 @@ static inline unsigned sixteen_up_to(float x, const float p[16]) {
 }
 #endif
 
-/* The lines of a triangle's edges in the plane of the rays: x a + y b + z of one sign inside. */
-typedef struct EdgeLines {
-    float x[3], y[3], z[3], slack;
-} EdgeLines;
-
-/* Bits of those of sixteen points that no edge puts outside, by more than the slack. */
-#if defined(GI_IS_AVX512)
-static inline unsigned sixteen_inside(
-    const EdgeLines *edges, const float a[16], const float b[16]) {
-    __m512 pa = _mm512_loadu_ps(a), pb = _mm512_loadu_ps(b), side[3];
-    for (int i = 0; i < 3; i++) {
-        side[i] = _mm512_fmadd_ps(_mm512_set1_ps(edges->x[i]), pa,
-            _mm512_fmadd_ps(_mm512_set1_ps(edges->y[i]), pb, _mm512_set1_ps(edges->z[i])));
-    }
-    __m512 least = _mm512_min_ps(side[0], _mm512_min_ps(side[1], side[2]));
-    __m512 most = _mm512_max_ps(side[0], _mm512_max_ps(side[1], side[2]));
-    __m512 slack = _mm512_set1_ps(edges->slack);
-    return (unsigned)_mm512_cmp_ps_mask(_mm512_set1_ps(-edges->slack), least, _CMP_LE_OQ) |
-           (unsigned)_mm512_cmp_ps_mask(most, slack, _CMP_LE_OQ);
-}
-#else
-static inline unsigned sixteen_inside(
-    const EdgeLines *edges, const float a[16], const float b[16]) {
-    unsigned bits = 0;
-    for (int i = 0; i < 16; i += GI_FLOATS) {
-        F pa = f_load(a + i), pb = f_load(b + i), side[3];
-        for (int k = 0; k < 3; k++) {
-            side[k] =
-                f_fused(f_of(edges->x[k]), pa, f_fused(f_of(edges->y[k]), pb, f_of(edges->z[k])));
-        }
-        F least = f_min(side[0], f_min(side[1], side[2]));
-        F most = f_max(side[0], f_max(side[1], side[2]));
-        bits |= (f_less_equal(f_of(-edges->slack), least) | f_less_equal(most, f_of(edges->slack)))
-                << i;
-    }
-    return bits;
-}
-#endif
-
 /* Bits of those of sixteen that equal value. */
 static inline unsigned sixteen_equal(uint32_t value, const uint32_t p[16]) {
 #if defined(GI_IS_AVX512)
@@ -103,6 +64,9 @@ static inline unsigned p_less_equal(P a, P b) { return _mm512_cmp_ps_mask(a, b, 
 static inline unsigned p_less(P a, P b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
 static inline void p_fill_where(uint32_t *p, unsigned bits, uint32_t value) {
     _mm512_mask_storeu_epi32(p, (__mmask16)bits, _mm512_set1_epi32((int)value));
+}
+static inline void p_store_where(float *p, unsigned bits, P a) {
+    _mm512_mask_storeu_ps(p, (__mmask16)bits, a);
 }
 /* From GI_PARTS vectors of doubles. */
 enum { GI_PARTS = GI_WIDEST / GI_DOUBLES };
@@ -145,7 +109,17 @@ static inline void p_fill_where(uint32_t *p, unsigned bits, uint32_t value) {
     all = _mm256_blendv_epi8(all, _mm256_set1_epi32((int)value), p_mask(bits));
     _mm256_storeu_si256((__m256i *)(void *)p, all);
 }
+static inline void p_store_where(float *p, unsigned bits, P a) {
+    _mm256_storeu_ps(p, _mm256_blendv_ps(_mm256_loadu_ps(p), a, _mm256_castsi256_ps(p_mask(bits))));
+}
 #else
+static inline void p_store_where(float *p, unsigned bits, P a) {
+    float lanes[GI_WIDEST];
+    p_store(lanes, a);
+    for (int i = 0; i < GI_WIDEST; i++) {
+        if (bits >> i & 1) p[i] = lanes[i];
+    }
+}
 static inline void p_fill_where(uint32_t *p, unsigned bits, uint32_t value) {
     for (int i = 0; i < GI_WIDEST; i++) {
         if (bits >> i & 1) p[i] = value;

@@ -375,6 +375,15 @@ static inline void meet_plain(const GiStage *stage, uint32_t i, uint32_t shader_
     add_point(scratch, &at, direction, &place);
 }
 
+/* What shadow rays do with the shape they start on. */
+static GiOwn own_of(const GiRules *rules, GiShapeRef shape) {
+    switch (gi_shape_kind(shape)) {
+    case GI_SHAPE_SPHERE: return rules->sphere_shadows_itself ? GI_OWN_MET : GI_OWN_SPARED;
+    case GI_SHAPE_TRIANGLE: return rules->shadow_distance > 0 ? GI_OWN_MET : GI_OWN_LEFT;
+    default: return GI_OWN_MET;
+    }
+}
+
 /* The same for surfaces of one kind that do not shine, many at a time. */
 static void meet_dark(
     const GiStage *stage, const uint32_t *rays, int count, uint32_t shader_index) {
@@ -382,10 +391,9 @@ static void meet_dark(
     GiTileScratch *scratch = stage->scratch;
     int begin = scratch->points.count;
     extend_segment(scratch, shader_index, count);
-    bool sphere = gi_shape_kind((GiShapeRef){scratch->bundle.shape[rays[0]]}) == GI_SHAPE_SPHERE;
     world->kernel->points(&world->shapes, &scratch->bundle, rays, count,
-        sphere && !world->rules->sphere_shadows_itself, world->rules->cone_geometric,
-        &scratch->points);
+        own_of(world->rules, (GiShapeRef){scratch->bundle.shape[rays[0]]}),
+        world->rules->cone_geometric, &scratch->points);
     for (int i = begin; i < begin + count; i++) {
         scratch->spots[i] = (GiSpot){shader_index, 1};
         if (scratch->weighted) scratch->factors[i] = white();
@@ -402,6 +410,19 @@ static inline uint32_t key_of(const GiWorld *world, GiShapeRef shape, uint32_t i
     uint32_t shader = gi_shape_info(&world->shapes, shape, instance)->shader;
     return shader << KEY_KIND_BITS |
            (known && instance == GI_SHAPE_NONE ? (uint32_t)kind : GI_SHAPE_PLACED);
+}
+
+/* The key of all triangles of a mesh that is of no instance: neighbours are mostly of one. */
+typedef struct MeshKey {
+    uint32_t first, count; /* bits of the first triangle */
+    uint32_t key;
+} MeshKey;
+
+static MeshKey mesh_key(const GiWorld *world, GiShapeRef triangle) {
+    const GiShapes *shapes = &world->shapes;
+    const GiMesh *mesh = &shapes->meshes[gi_shape_mesh(shapes, gi_shape_index(triangle))];
+    return (MeshKey){gi_shape_ref(GI_SHAPE_TRIANGLE, mesh->first_triangle).bits,
+        mesh->triangle_count, key_of(world, triangle, GI_SHAPE_NONE)};
 }
 
 /* The rays of one key. */
@@ -435,6 +456,7 @@ void gi_surface_bundle(const GiStage *stage) {
     uint32_t keys[GI_BUNDLE_ROOM], rays[GI_BUNDLE_ROOM];
     int ends[GI_BUNDLE_SIZE];
     if (gi_stage_records(stage)) gi_record_camera(stage);
+    MeshKey last = {0, 0, 0};
     for (int i = 0; i < bundle->count; i++) {
         GiShapeRef shape = {bundle->shape[i]};
         keys[i] = GI_NO_KEY;
@@ -444,8 +466,12 @@ void gi_surface_bundle(const GiStage *stage) {
         } else if (gi_shape_kind(shape) == GI_SHAPE_RECTANGLE) {
             Met met = met_of_bundle(bundle, (uint32_t)i);
             show_first(stage, met.pixel, rectangle_emission(stage, NULL, &met));
-        } else {
+        } else if (gi_shape_kind(shape) != GI_SHAPE_TRIANGLE ||
+                   bundle->instance[i] != GI_SHAPE_NONE) {
             keys[i] = key_of(world, shape, bundle->instance[i]);
+        } else {
+            if (shape.bits - last.first >= last.count) last = mesh_key(world, shape);
+            keys[i] = last.key;
         }
     }
     int count = world->kernel->group(keys, bundle->count, rays, ends);

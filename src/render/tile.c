@@ -140,6 +140,8 @@ static void set_rays(const GiStage *stage, const GiTileExtent *extent, int block
     bundle->count = count;
     bundle->apex = view->eye;
     bundle->side = view->across;
+    /* The point on a triangle does not depend on t (shape.c), but depths do. */
+    bundle->without_t = scratch->seen == NULL && !gi_stage_records(stage);
     world->kernel->view(view, scratch->a, scratch->b, bundle);
     bundle->start = gi_world_eye_error(world, view->eye);
     for (int i = 0; i < count; i++) bundle->t[i] = INFINITY;

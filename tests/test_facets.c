@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: MIT
+ * Triangles in bundles: what is certain in single precision is taken without the exact test. Here
+ * are pairs of triangles with an edge in common, large or tiny, near or far, layers of them that
+ * all but touch, and rays that graze edges or end about where they begin, by parts from a tenth to
+ * a billionth; and rays that begin on a triangle itself. Whoever takes too much for certain
+ * disagrees with the formula. */
+#include "brute.h"
+#include "meshes.h"
+#include "random.h"
+#include "test.h"
+
+#include <math.h>
+#include <string.h>
+
+static GiVec unit(Random *random) {
+    GiVec v;
+    do {
+        v = random_vec(random, -1, 1);
+    } while (gi_length(v) < 0.1);
+    return gi_normalize(v);
+}
+
+static double tiny(Random *random) {
+    double part = pow(10, -random_real(random, 1, 9));
+    return random_below(random, 2) ? part : -part;
+}
+
+enum { LAYERS = 4 };
+
+/* Two triangles with a common edge, in layers: a little moved, turned, or the very same. */
+static void add_layers(GiScene *scene, GiVec center, double size, Random *random) {
+    GiVec corner[4];
+    mesh_begin(scene);
+    double narrow = random_below(random, 3) == 0 ? pow(10, -random_real(random, 0, 5)) : 1;
+    GiVec across = unit(random), up = gi_scale(unit(random), narrow);
+    for (int k = 0; k < 4; k++) {
+        double x = k == 1 || k == 2 ? 1 : -1, y = k >= 2 ? 1 : -1;
+        GiVec place = gi_add(gi_scale(across, x), gi_scale(up, y));
+        corner[k] = gi_along(center, gi_add(place, random_vec(random, -0.2, 0.2)), size);
+    }
+    GiVec away = gi_scale(unit(random), size);
+    for (uint32_t layer = 0; layer < LAYERS; layer++) {
+        double step = random_below(random, 4) == 0 ? 0 : tiny(random);
+        double turn = random_below(random, 2) ? tiny(random) : 0;
+        for (int k = 0; k < 4; k++) {
+            mesh_position(scene, gi_along(corner[k], away, step + turn * k));
+        }
+        mesh_triangle(scene, 4 * layer, 4 * layer + 1, 4 * layer + 2);
+        mesh_triangle(scene, 4 * layer, 4 * layer + 2, 4 * layer + 3);
+    }
+    GiShapeRef ref = mesh_surface(scene);
+    CHECK(gi_scene_place(scene, GI_SHAPE_NONE, ref));
+}
+
+static GiVec corner_of(const Fixture *fixture, uint32_t triangle, int k) {
+    const GiTriangles *triangles = &fixture->world.shapes.triangles;
+    const float *p = triangles->positions[triangles->corners[triangle][k]];
+    return gi_vec((double)p[0], (double)p[1], (double)p[2]);
+}
+
+/* A point inside of a triangle, near an edge or near a corner. */
+static GiVec point_on(const Fixture *fixture, uint32_t triangle, Random *random) {
+    double part[3] = {random_real(random, 0, 1), random_real(random, 0, 1), 0};
+    if (random_below(random, 3) == 0) part[0] = tiny(random);
+    if (random_below(random, 3) == 0) part[1] = tiny(random);
+    if (part[0] + part[1] > 1) part[0] = 1 - part[0], part[1] = 1 - part[1];
+    part[2] = 1 - part[0] - part[1];
+    int first = random_below(random, 3);
+    GiVec p = {0, 0, 0};
+    for (int k = 0; k < 3; k++) {
+        p = gi_along(p, corner_of(fixture, triangle, (first + k) % 3), part[k]);
+    }
+    return p;
+}
+
+static void aim(
+    const Fixture *fixture, GiVec center, double size, bool any, GiBundle *bundle, Random *random) {
+    double distance = pow(10, random_real(random, -0.5, 3));
+    bundle->apex = gi_along(center, unit(random), size * distance);
+    bundle->side = gi_vec(0, 0, 0);
+    bundle->count = GI_BUNDLE_SIZE;
+    bundle->start = random_below(random, 2) ? 0 : random_real(random, 0, 1.5);
+    for (int i = 0; i < bundle->count; i++) {
+        uint32_t triangle = (uint32_t)random_below(random, 2 * LAYERS);
+        GiVec p = point_on(fixture, triangle, random), o = bundle->apex;
+        double part = random_below(random, 2) ? 1 + tiny(random) : random_real(random, 0.5, 2);
+        GiVec d = gi_sub(p, o);
+        if (any) {
+            o = gi_along(o, d, part);
+            d = gi_sub(bundle->apex, o);
+        }
+        bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
+        bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
+        bundle->t_min[i] = random_below(random, 2) ? 0 : fabs(tiny(random));
+        bundle->t_max[i] = random_below(random, 4) ? 1 : 1 - fabs(tiny(random));
+        bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
+    }
+}
+
+/* Against the same with one ray at a time, which looks for nothing certain. */
+static int differing(const Fixture *fixture, const GiKernel *kernel, bool any, GiBundle *bundle) {
+    int wrong = 0;
+    for (int i = 0; i < bundle->count; i++) bundle->t[i] = INFINITY;
+    (any ? kernel->bundle_any : kernel->bundle_closest)(&fixture->world.trace, bundle);
+    for (int i = 0; i < bundle->count; i++) {
+        GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
+            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, any ? bundle->t_min[i] : bundle->start,
+            any ? bundle->t_max[i] : INFINITY, GI_SHAPE_NONE, GI_SHAPE_NONE};
+        GiTraceHit hit;
+        bool meets = brute_force(fixture, &ray, &hit);
+        bool same = (bundle->shape[i] != GI_SHAPE_NONE) == meets;
+        if (meets && !any) {
+            same &= bundle->shape[i] == hit.shape.bits && bundle->instance[i] == hit.instance;
+            same &= bundle->without_t || memcmp(&bundle->t[i], &hit.t, sizeof hit.t) == 0;
+        }
+        wrong += !same;
+    }
+    return wrong;
+}
+
+static void begin(Fixture *fixture, GiVec center, double size, Random *random) {
+    GiShapeRef far;
+    fixture_begin(fixture, GLINT_DIALECT_2018B);
+    add_layers(&fixture->scene, center, size, random);
+    /* The scene is as large as a second shape, and has one that is tested in another way. */
+    CHECK(gi_scene_add_sphere(&fixture->scene, gi_vec(3, 3, 3), 1e-3, 0, &far));
+    CHECK(gi_scene_place(&fixture->scene, GI_SHAPE_NONE, far));
+    if (random_below(random, 2)) {
+        CHECK(gi_scene_add_sphere(&fixture->scene, center, size * 0.7, 0, &far));
+        CHECK(gi_scene_place(&fixture->scene, GI_SHAPE_NONE, far));
+    }
+    fixture_commit(fixture, gi_kernel_at(0));
+}
+
+static void triangles_are_grazed(void) {
+    static GiBundle bundle;
+    Random random = {21};
+    for (int round = 0; round < 300; round++) {
+        Fixture fixture;
+        GiVec center = random_vec(&random, -1, 1);
+        double size = pow(10, random_real(&random, -4, 0.5));
+        begin(&fixture, center, size, &random);
+        for (int any = 0; any < 2; any++) {
+            aim(&fixture, center, size, any != 0, &bundle, &random);
+            bundle.without_t = random_below(&random, 4) == 0;
+            const GiKernel *kernel;
+            for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
+                CHECK_INT(differing(&fixture, kernel, any != 0, &bundle), 0);
+            }
+        }
+        fixture_end(&fixture);
+    }
+}
+
+/* ---------------------------------------------------------------- rays from triangles */
+
+/* What camera rays meet becomes points, and from these shadow rays leave for a light. That their
+ * own triangles are left out must not show. */
+static int differing_shadows(
+    const Fixture *fixture, const GiKernel *kernel, GiBundle *bundle, GiVec light) {
+    static GiPoints points;
+    static GiBundle shadows;
+    uint32_t rays[GI_BUNDLE_ROOM];
+    int count = 0, wrong = 0;
+    for (int i = 0; i < bundle->count; i++) bundle->t[i] = INFINITY;
+    kernel->bundle_closest(&fixture->world.trace, bundle);
+    for (int i = 0; i < bundle->count; i++) {
+        if (bundle->shape[i] == GI_SHAPE_NONE) continue;
+        if (gi_shape_kind((GiShapeRef){bundle->shape[i]}) == GI_SHAPE_TRIANGLE) {
+            rays[count++] = (uint32_t)i;
+        }
+    }
+    points.count = 0;
+    if (count == 0) return 0;
+    kernel->points(&fixture->world.shapes, bundle, rays, count, GI_OWN_LEFT, false, &points);
+    shadows.count = count;
+    shadows.apex = light;
+    shadows.side = gi_vec(0, 0, 0);
+    for (int i = 0; i < count; i++) {
+        GiVec p = gi_vec(points.px[i], points.py[i], points.pz[i]), d = gi_sub(light, p);
+        shadows.ox[i] = p.x, shadows.oy[i] = p.y, shadows.oz[i] = p.z;
+        shadows.dx[i] = d.x, shadows.dy[i] = d.y, shadows.dz[i] = d.z;
+        shadows.t_min[i] = points.error[i] / gi_length(d);
+        shadows.t_max[i] = 1;
+        shadows.skip[i] = points.skip[i];
+        shadows.skip_instance[i] = points.skip_instance[i];
+    }
+    kernel->bundle_any(&fixture->world.trace, &shadows);
+    for (int i = 0; i < count; i++) {
+        GiTraceRay ray = {{shadows.ox[i], shadows.oy[i], shadows.oz[i]},
+            {shadows.dx[i], shadows.dy[i], shadows.dz[i]}, shadows.t_min[i], 1, GI_SHAPE_NONE,
+            GI_SHAPE_NONE};
+        GiTraceHit hit;
+        wrong += brute_force(fixture, &ray, &hit) != (shadows.shape[i] != GI_SHAPE_NONE);
+    }
+    return wrong;
+}
+
+static void triangles_are_left(void) {
+    static GiBundle bundle;
+    Random random = {22};
+    for (int round = 0; round < 300; round++) {
+        Fixture fixture;
+        GiVec center = random_vec(&random, -1, 1);
+        double size = pow(10, random_real(&random, -4, 0.5));
+        begin(&fixture, center, size, &random);
+        aim(&fixture, center, size, false, &bundle, &random);
+        bundle.without_t = random_below(&random, 2) != 0;
+        /* A light anywhere, or so low over the triangles that it all but lies in their planes. */
+        GiVec light = gi_along(center, unit(&random), size * pow(10, random_real(&random, -1, 3)));
+        if (random_below(&random, 2)) {
+            GiVec a = corner_of(&fixture, 0, 0), b = corner_of(&fixture, 0, 1);
+            light = gi_along(gi_along(a, gi_sub(b, a), random_real(&random, 1.1, 9)), unit(&random),
+                size * tiny(&random));
+        }
+        const GiKernel *kernel;
+        for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
+            CHECK_INT(differing_shadows(&fixture, kernel, &bundle, light), 0);
+        }
+        fixture_end(&fixture);
+    }
+}
+
+const GiTest tests_facets[] = {TEST(triangles_are_grazed), TEST(triangles_are_left), TEST_END};
