@@ -23,6 +23,7 @@
 #include "kernel/frustum.h"
 #include "kernel/decide.h"
 #include "kernel/certain.h"
+#include "kernel/solid.h"
 #include "kernel/inside.h"
 #include "kernel/bundle.h"
 #include "kernel/light.h"
