@@ -6,6 +6,7 @@
 #include "shape/hit.h"
 #include "test.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -210,7 +211,7 @@ static void fill_lit(Streams *s, Random *random) {
         for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
             numbers[k][i] = random_real(random, -5, 5);
         }
-        points->skip[i] = (uint32_t)random_bits(random);
+        lit->skip[i] = (uint32_t)random_bits(random);
         points->skip_instance[i] = (uint32_t)random_bits(random);
         lit->arrives[i] = (uint8_t)random_below(random, 2);
         if (random_below(random, 2) == 0) lit->point[lit->count++] = (uint32_t)i;
@@ -234,7 +235,7 @@ static void check_shadows(const GiKernel *kernel, Streams *s, Random *random) {
         CHECK(same(vec_at(bundle->ox, bundle->oy, bundle->oz, i), p));
         CHECK(same(vec_at(bundle->dx, bundle->dy, bundle->dz, i), gi_sub(bundle->apex, p)));
         CHECK(bundle->t_min[i] == lit->t_min[point] && bundle->t_max[i] == 1);
-        CHECK_INT(bundle->skip[i], points->skip[point]);
+        CHECK_INT(bundle->skip[i], lit->skip[point]);
         CHECK_INT(bundle->skip_instance[i], points->skip_instance[point]);
     }
 }
@@ -252,6 +253,107 @@ static void check_add(const GiKernel *kernel, Streams *s) {
     for (int i = 0; i < points->count; i++) {
         CHECK(same(vec_at(points->red, points->green, points->blue, i), expected[i]));
     }
+}
+
+/* ---------------------------------------------------------------- own shadows */
+
+/* Solids of all sizes, some far from where coordinates begin. */
+static void fill_far_solids(Solids *solids, Random *random) {
+    for (int i = 0; i < SHAPES; i++) {
+        double scale = pow(10, random_real(random, -6, 3));
+        GiVec c = gi_scale(random_vec(random, -1, 1), pow(10, random_real(random, -3, 3)));
+        GiVec size = gi_scale(random_vec(random, 0.1, 3), scale);
+        solids->spheres[i] = (GiSphere){c, size.x};
+        solids->boxes[i] = (GiBox){gi_sub(c, size), gi_add(c, size)};
+        double slope = random_below(random, 3) ? random_real(random, -2, 2) : 0;
+        double radius = random_below(random, 2) ? fabs(slope) * size.z : size.x;
+        solids->cones[i] = (GiCone){c, radius, slope, size.z};
+    }
+    solids->shapes =
+        (GiShapes){.spheres = solids->spheres, .boxes = solids->boxes, .cones = solids->cones};
+}
+
+/* A ray from about the solid to near its centre. */
+static void put_near_ray(GiBundle *bundle, Random *random, const Solids *solids, GiShapeRef ref) {
+    GiBox box = gi_shape_bounds(&solids->shapes, ref, GI_SHAPE_NONE);
+    GiVec c = gi_scale(gi_add(box.low, box.high), 0.5), half = gi_sub(box.high, c);
+    int i = bundle->count;
+    for (;;) {
+        GiVec o = gi_add(c, gi_multiply(half, random_vec(random, -3, 3)));
+        GiVec d = gi_normalize(gi_sub(gi_add(c, gi_multiply(half, random_vec(random, -1, 1))), o));
+        const gi_hit_Ray ray = gi_hit_ray(o.x, o.y, o.z, d.x, d.y, d.z);
+        if (!gi_hit_shape(&solids->shapes, ref, &ray, 0, INFINITY, &bundle->t[i])) continue;
+        bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
+        bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
+        bundle->shape[i] = ref.bits;
+        bundle->pixel[i] = 0;
+        bundle->count++;
+        return;
+    }
+}
+
+/* A light that the point sees at a slant, down to where it is nearly behind the horizon. */
+static GiVec slanting_light(Random *random, GiVec p, GiVec n, double error) {
+    double cosine = pow(10, random_real(random, -6, 0));
+    GiVec side = gi_normalize(gi_cross(n, random_vec(random, -1, 1)));
+    GiVec l = gi_add(gi_scale(n, cosine), gi_scale(side, sqrt(1 - cosine * cosine)));
+    return gi_along(p, l, error * pow(10, random_real(random, 3, 14)));
+}
+
+/* Points whose own shape a shadow ray need not be tested against: it does not meet it. Returns how
+ * many there are. */
+static int check_own(const GiKernel *kernel, Streams *s, Random *random, GiShapeKind kind) {
+    Solids solids;
+    fill_far_solids(&solids, random);
+    GiBundle *bundle = &s->bundle;
+    GiPoints *points = &s->points;
+    uint32_t rays[COUNT];
+    bundle->count = points->count = 0;
+    for (int i = 0; i < COUNT; i++) {
+        uint32_t index = (uint32_t)random_below(random, SHAPES);
+        put_near_ray(bundle, random, &solids, gi_shape_ref(kind, index));
+        rays[i] = (uint32_t)i;
+    }
+    kernel->points(&solids.shapes, bundle, rays, COUNT, false, false, points);
+    int clear = 0;
+    for (int i = 0; i < COUNT; i++) {
+        GiVec p = vec_at(points->px, points->py, points->pz, i);
+        GiVec n = vec_at(points->nx, points->ny, points->nz, i);
+        const GiPointLight light = {
+            slanting_light(random, p, n, points->error[i]), gi_vec(1, 1, 1), false};
+        const GiGloss gloss = {.diffuse = gi_vec(1, 1, 1),
+            .diffuse_factor = 1,
+            .away = random_below(random, 2) ? points->error[i] * pow(10, random_real(random, -6, 1))
+                                            : 0};
+        s->lit.count = 0;
+        kernel->light(points, i, i + 1, &light, &gloss, &s->lit);
+        CHECK_INT(points->own[i], bundle->shape[i]);
+        if (s->lit.count == 0 || s->lit.skip[i] == GI_SHAPE_NONE) continue;
+        CHECK_INT(s->lit.skip[i], bundle->shape[i]);
+        GiVec d = gi_sub(light.position, p);
+        const gi_hit_Ray ray = gi_hit_ray(p.x, p.y, p.z, d.x, d.y, d.z);
+        double t;
+        CHECK(!gi_hit_shape(
+            &solids.shapes, (GiShapeRef){bundle->shape[i]}, &ray, s->lit.t_min[i], INFINITY, &t));
+        clear++;
+    }
+    return clear;
+}
+
+static void own_shape_is_clear(void) {
+    Streams *s = aligned_alloc(64, (sizeof *s + 63) / 64 * 64);
+    CHECK(s != NULL);
+    if (s == NULL) return;
+    memset(s, 0, sizeof *s);
+    const GiShapeKind kinds[] = {GI_SHAPE_SPHERE, GI_SHAPE_BOX, GI_SHAPE_CONE};
+    const GiKernel *kernel;
+    for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
+        Random random = {32};
+        int clear[3] = {0, 0, 0};
+        for (int i = 0; i < 600; i++) clear[i % 3] += check_own(kernel, s, &random, kinds[i % 3]);
+        for (int i = 0; i < 3; i++) CHECK(clear[i] > 200 * COUNT / 16);
+    }
+    free(s);
 }
 
 /* ---------------------------------------------------------------- all kernels */
@@ -277,4 +379,4 @@ static void kernels_agree(void) {
     free(s);
 }
 
-const GiTest tests_stream[] = {TEST(kernels_agree), TEST_END};
+const GiTest tests_stream[] = {TEST(kernels_agree), TEST(own_shape_is_clear), TEST_END};

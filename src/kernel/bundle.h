@@ -45,7 +45,16 @@ static inline void tile_flush(Tile *tile) {
         COUNT(shapes, __builtin_popcount(rays));
         if (rays != 0) tile_test(tile, test->shape, (int)test->packet, rays);
     }
-    tile_count(tile, tile->test_count + tile->taken);
+    int solids = 0;
+    for (int kind = 0; kind < SOLID_KINDS; kind++) {
+        SolidTests *list = &tile->solids[kind];
+        if (list->count == 0) continue;
+        solids += list->count;
+        if (tile->any) solids_look(tile, (GiShapeKind)kind, list);
+        test_solids(tile, (GiShapeKind)kind, list->tests, list->count);
+        list->count = 0;
+    }
+    tile_count(tile, tile->test_count + tile->taken + solids);
     tile->test_count = tile->taken = 0;
     if (tile->emptied > 0) tile_enclose(tile);
     tile->emptied = 0;
@@ -71,52 +80,95 @@ typedef struct Pairs {
  * that go wrong half of the time would cost more than the work. */
 static inline void tile_pairs(
     const Tile *tile, const Rectangles *rectangles, unsigned bits, Pairs *pairs) {
-    pairs->count = 0;
+    int count = 0; /* not in memory, which vectors might be written over */
     for (int g = 0; g < GROUP_COUNT; g++) {
         unsigned rest = bits & tile_group(&tile->groups, g, rectangles);
         for (; rest != 0; rest &= rest - 1) {
             int lane = lowest_bit(rest);
             unsigned packets = tile_overlaps(&tile->packets, rectangles, lane, g * GROUP_SIZE);
-            pairs->count += sixteen_append(pairs->pair + pairs->count, packets,
-                (uint32_t)(lane * GI_PACKET_COUNT + g * GROUP_SIZE));
+            count += sixteen_append(
+                pairs->pair + count, packets, (uint32_t)(lane * GI_PACKET_COUNT + g * GROUP_SIZE));
         }
     }
+    pairs->count = count;
 }
 
 /* After the pairs of a leaf. Finding the frustum anew takes as long as a leaf. */
 enum { EMPTIED_BATCH = 2 };
 static inline void tile_noted(Tile *tile, int tests) {
     tile->test_count = tests;
-    if (tests + tile->taken >= TEST_BATCH || tile->emptied >= EMPTIED_BATCH) tile_flush(tile);
+    tests += tile->taken;
+    for (int kind = 0; kind < SOLID_KINDS; kind++) tests += tile->solids[kind].count;
+    if (tests >= TEST_BATCH || tile->emptied >= EMPTIED_BATCH) tile_flush(tile);
+}
+
+/* A test is written down without asking whether rays are left, but counted only then. */
+static inline void note_solid(Tile *tile, GiShapeKind kind, Test test) {
+    SolidTests *list = &tile->solids[kind];
+    list->tests[list->count] = test;
+    list->count += test.rays != 0;
+}
+
+static inline void tile_note(Tile *tile, Test test) {
+    if (gi_shape_kind(test.shape) < SOLID_KINDS) {
+        note_solid(tile, gi_shape_kind(test.shape), test);
+    } else {
+        tile->tests[tile->test_count] = test;
+        tile->test_count += test.rays != 0;
+    }
+}
+
+/* The boxes of a block that are large: floors and the like. */
+static inline void block_large(
+    Tile *tile, const GiBoxBlock *block, const Rectangles *rectangles, unsigned bits) {
+    Boxes boxes;
+    for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
+        int lane = lowest_bit(rest);
+        boxes_look(tile, block, lane, rectangles->near[lane], &boxes);
+    }
+    Pairs pairs;
+    tile_pairs(tile, rectangles, bits, &pairs);
+    for (int i = 0; i < pairs.count; i++) {
+        int lane = (int)(pairs.pair[i] / GI_PACKET_COUNT);
+        int packet = (int)(pairs.pair[i] % GI_PACKET_COUNT);
+        GiShapeRef ref = block->shape[lane];
+        Verdict verdict = box_verdict(tile, &boxes, lane, packet);
+        unsigned rays = take_certain(tile, ref, packet, verdict);
+        note_solid(tile, GI_SHAPE_BOX, (Test){ref, (uint32_t)packet, rays, true});
+    }
+}
+
+/* All other shapes of a block. */
+static inline void block_small(
+    Tile *tile, const GiBoxBlock *block, const Rectangles *rectangles, unsigned bits) {
+    Pairs pairs;
+    tile_pairs(tile, rectangles, bits, &pairs);
+    for (int i = 0; i < pairs.count; i++) {
+        int lane = (int)(pairs.pair[i] / GI_PACKET_COUNT);
+        int packet = (int)(pairs.pair[i] % GI_PACKET_COUNT);
+        GiShapeRef ref = block->shape[lane];
+        unsigned rays = tile_rays(tile, rectangles, lane, packet);
+        if (tile->any) rays &= ~spared_by(tile, ref, packet);
+        tile_note(tile, (Test){ref, (uint32_t)packet, rays, false});
+    }
 }
 
 static inline void tile_block(Tile *tile, uint32_t child) {
     const GiBoxBlock *block = &tile->tree->box_blocks[gi_child_index(child)];
     Rectangles rectangles;
-    Boxes boxes;
     COUNT(leaves, 1);
-    unsigned bits = tile_boxes(&tile->frustum, block, &rectangles), looked = 0;
-    for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
+    unsigned bits = tile_boxes(&tile->frustum, block, &rectangles), large = 0;
+    for (unsigned rest = bits & tile_wide(&tile->frustum, &rectangles); rest != 0;
+         rest &= rest - 1) {
         int lane = lowest_bit(rest);
-        prefetch_shape(tile->shapes, block->shape[lane]);
-        if (!looks_at_box(tile, block->shape[lane], &rectangles, lane)) continue;
-        looked |= 1u << lane;
-        boxes_look(tile, block, lane, rectangles.near[lane], &boxes);
+        large |= (unsigned)(gi_shape_kind(block->shape[lane]) == GI_SHAPE_BOX) << lane;
     }
-    Pairs pairs;
-    tile_pairs(tile, &rectangles, bits, &pairs);
-    int count = tile->test_count;
-    for (int i = 0; i < pairs.count; i++) {
-        int lane = (int)(pairs.pair[i] / GI_PACKET_COUNT);
-        int packet = (int)(pairs.pair[i] % GI_PACKET_COUNT);
-        GiShapeRef ref = block->shape[lane];
-        unsigned rays = looked >> lane & 1 ? take_certain(tile, ref, packet,
-                                                 box_verdict(tile, &boxes, lane, packet))
-                                           : tile_rays(tile, &rectangles, lane, packet);
-        tile->tests[count] = (Test){ref, (uint32_t)packet, rays};
-        count += rays != 0;
+    for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
+        prefetch_small(tile, block->shape[lowest_bit(rest)]);
     }
-    tile_noted(tile, count);
+    if (large != 0) block_large(tile, block, &rectangles, large);
+    block_small(tile, block, &rectangles, bits & ~large);
+    tile_noted(tile, tile->test_count);
 }
 
 static inline void tile_balls(Tile *tile, uint32_t child) {
@@ -127,16 +179,15 @@ static inline void tile_balls(Tile *tile, uint32_t child) {
     unsigned bits = tile_spheres(&tile->frustum, block, &rectangles, &spheres);
     Pairs pairs;
     tile_pairs(tile, &rectangles, bits, &pairs);
-    int count = tile->test_count;
     for (int i = 0; i < pairs.count; i++) {
         uint32_t lane = pairs.pair[i] / GI_PACKET_COUNT, packet = pairs.pair[i] % GI_PACKET_COUNT;
-        Verdict verdict =
-            sphere_verdict(tile, &spheres, (int)lane, rectangles.near[lane], (int)packet);
+        const Ball ball = {spheres.x[lane], spheres.y[lane], spheres.z[lane], spheres.outer[lane],
+            spheres.inner[lane]};
+        Verdict verdict = sphere_verdict(tile, &ball, rectangles.near[lane], (int)packet);
         unsigned rays = take_certain(tile, block->shape[lane], (int)packet, verdict);
-        tile->tests[count] = (Test){block->shape[lane], packet, rays};
-        count += rays != 0;
+        note_solid(tile, GI_SHAPE_SPHERE, (Test){block->shape[lane], packet, rays, true});
     }
-    tile_noted(tile, count);
+    tile_noted(tile, tile->test_count);
 }
 
 static inline void tile_leaf(Tile *tile, uint32_t child) {
@@ -153,7 +204,7 @@ static inline void tile_leaf(Tile *tile, uint32_t child) {
         uint32_t lane = pairs.pair[i] / GI_PACKET_COUNT, packet = pairs.pair[i] % GI_PACKET_COUNT;
         GiShapeRef ref = gi_shape_ref(GI_SHAPE_TRIANGLE, first + lane);
         unsigned rays = tile_rays_at(tile, ref, &rectangles, &edges, (int)lane, (int)packet);
-        tile->tests[count] = (Test){ref, packet, rays};
+        tile->tests[count] = (Test){ref, packet, rays, true};
         count += rays != 0;
     }
     tile_noted(tile, count);
@@ -205,7 +256,7 @@ static inline void tile_walk(Tile *tile) {
     uint32_t packet_count = (uint32_t)(tile->bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
     for (uint32_t i = 0; i < tree->unbounded_count && !tile->stopped; i++) {
         for (uint32_t k = 0; k < packet_count; k++) {
-            tile->tests[tile->test_count++] = (Test){tree->unbounded[i], k, 0xffff};
+            tile->tests[tile->test_count++] = (Test){tree->unbounded[i], k, 0xffff, true};
         }
         tile_flush(tile);
     }
@@ -275,6 +326,8 @@ static inline void bundle_run(Tile *tile) {
     double toward = tile->any ? -1 : 1;
     tile->scale = tile->tree->scale;
     tile->test_count = tile->tests_made = tile->taken = 0;
+    for (int kind = 0; kind < SOLID_KINDS; kind++) tile->solids[kind].count = 0;
+    tile_places(tile);
     tile->emptied = 0;
     tile->stopped = false;
     for (int i = 0; i < GI_PACKET_COUNT / 32; i++) tile->nearer[i] = 0;

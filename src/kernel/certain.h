@@ -130,7 +130,7 @@ typedef struct Verdict {
 static inline unsigned take_certain(Tile *tile, GiShapeRef ref, int packet, Verdict verdict) {
     unsigned maybe = verdict.maybe & tile->alive[packet];
     if (!tile->any || maybe == 0) return maybe;
-    maybe = not_sparing(tile, ref, packet, maybe);
+    maybe &= ~spared_by(tile, ref, packet);
     unsigned sure = verdict.sure & maybe;
     if (sure == 0) return maybe;
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
@@ -185,14 +185,17 @@ typedef struct Boxes {
     BoxPlanes outer[8], inner[8];
 } Boxes;
 
-/* Whether to: at a floor, but not at what is small and seen by few packets. */
-static inline bool looks_at_box(
-    const Tile *tile, GiShapeRef ref, const Rectangles *rectangles, int lane) {
-    const Frustum *frustum = &tile->frustum;
-    float width = rectangles->a1[lane] - rectangles->a0[lane];
-    float height = rectangles->b1[lane] - rectangles->b0[lane];
-    return gi_shape_kind(ref) == GI_SHAPE_BOX && 2 * width > frustum->a1 - frustum->a0 &&
-           2 * height > frustum->b1 - frustum->b0;
+/* Bits of the shapes that it may pay for: a floor, not what is small and seen by few packets. */
+static inline unsigned tile_wide(const Frustum *frustum, const Rectangles *shapes) {
+    const F width = f_of((frustum->a1 - frustum->a0) / 2),
+            height = f_of((frustum->b1 - frustum->b0) / 2);
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        bits |= (f_less(width, f_load(shapes->a1 + i) - f_load(shapes->a0 + i)) &
+                    f_less(height, f_load(shapes->b1 + i) - f_load(shapes->b0 + i)))
+                << i;
+    }
+    return bits;
 }
 
 static inline float larger(float a, float b) { return a > b ? a : b; }
@@ -241,8 +244,13 @@ static inline Verdict box_verdict(const Tile *tile, const Boxes *boxes, int lane
 
 /* ---------------------------------------------------------------- spheres */
 
-/* Eight spheres, relative to the apex along u, v, w, by their centres and the squares of two radii:
- * of one that holds the sphere, and of one that is held by it. */
+/* A sphere, relative to the apex along u, v, w, by its centre and the squares of two radii: of one
+ * that holds the sphere, and of one that is held by it. */
+typedef struct Ball {
+    float x, y, z, outer, inner;
+} Ball;
+
+/* Eight of them. */
 typedef struct Spheres {
     float x[8], y[8], z[8], outer[8], inner[8];
 } Spheres;
@@ -284,11 +292,11 @@ static inline unsigned tile_spheres(
 }
 
 static inline Verdict sphere_verdict(
-    const Tile *tile, const Spheres *spheres, int lane, float nearest, int packet) {
-    const P x = p_of(spheres->x[lane]), y = p_of(spheres->y[lane]), z = p_of(spheres->z[lane]);
-    const P outer = p_of(spheres->outer[lane]), near = p_of(nearest);
+    const Tile *tile, const Ball *ball, float nearest, int packet) {
+    const P x = p_of(ball->x), y = p_of(ball->y), z = p_of(ball->z);
+    const P outer = p_of(ball->outer), near = p_of(nearest);
     /* Nothing is certain of what may lie before the beginning. */
-    const P inner = p_of(tile->frustum.start <= nearest ? spheres->inner[lane] : -1);
+    const P inner = p_of(tile->frustum.start <= nearest ? ball->inner : -1);
     Verdict verdict = {0, 0};
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
         int i = packet * GI_PACKET_SIZE + j;

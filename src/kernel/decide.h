@@ -174,32 +174,17 @@ static inline void test_closest(
     }
 }
 
-/* The same of spheres. Not inline, so that it has all registers to itself. */
-static NOINLINE void closest_sphere(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
-    const GiSphere *sphere = &tile->shapes->spheres[gi_shape_index(ref)];
-    for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
-        if (!any_of(rays, j)) continue;
-        int i = packet * GI_PACKET_SIZE + j;
-        gi_wide_Ray ray = tile_ray(tile, GI_SHAPE_SPHERE, i);
-        R t;
-        M hit = gi_wide_sphere(sphere, &ray, tile_from(tile, i), tile_to(tile, i), &t);
-        take_nearer(tile, ref, i, hit, t);
-    }
-}
-
-/* Without those rays that spare this shape. */
-static inline unsigned not_sparing(const Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
+/* Bits of the rays of a packet that spare this shape. */
+static inline unsigned spared_by(const Tile *tile, GiShapeRef ref, int packet) {
     const GiBundle *bundle = tile->bundle;
-    unsigned skip = sixteen_equal(ref.bits, bundle->skip + packet * GI_PACKET_SIZE);
-    if (skip == 0) return rays;
-    return rays &
-           ~(skip & sixteen_equal(tile->instance, bundle->skip_instance + packet * GI_PACKET_SIZE));
+    return sixteen_equal(ref.bits, bundle->skip + packet * GI_PACKET_SIZE) &
+           sixteen_equal(tile->instance, bundle->skip_instance + packet * GI_PACKET_SIZE);
 }
 
 static inline void test_any(
     Tile *tile, GiShapeRef ref, R corners[3][3], int packet, unsigned rays) {
     unsigned stopped = 0;
-    rays = not_sparing(tile, ref, packet, rays);
+    rays &= ~spared_by(tile, ref, packet);
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
         if (!any_of(rays, j)) continue;
         int i = packet * GI_PACKET_SIZE + j;
@@ -211,33 +196,10 @@ static inline void test_any(
     packet_stop(tile, packet, stopped);
 }
 
-static NOINLINE void any_sphere(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
-    const GiSphere *sphere = &tile->shapes->spheres[gi_shape_index(ref)];
-    unsigned stopped = 0;
-    rays = not_sparing(tile, ref, packet, rays);
-    for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
-        if (!any_of(rays, j)) continue;
-        int i = packet * GI_PACKET_SIZE + j;
-        gi_wide_Ray ray = tile_ray(tile, GI_SHAPE_SPHERE, i);
-        R t;
-        M hit = gi_wide_sphere(sphere, &ray, tile_from(tile, i), tile_to(tile, i), &t);
-        unsigned bits = m_bits(hit) & rays >> j;
-        u_store_where(tile->bundle->shape + i, bits, ref.bits);
-        stopped |= bits << j;
-    }
-    packet_stop(tile, packet, stopped);
-}
-
+/* Any shape but a solid. */
 static inline void tile_test(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
     R corners[3][3];
     switch (gi_shape_kind(ref)) {
-    case GI_SHAPE_SPHERE:
-        if (tile->any) {
-            any_sphere(tile, ref, packet, rays);
-        } else {
-            closest_sphere(tile, ref, packet, rays);
-        }
-        return;
     case GI_SHAPE_TRIANGLE:
         gi_wide_corners(&tile->shapes->triangles, gi_shape_index(ref), corners);
         if (tile->any) {
@@ -252,5 +214,130 @@ static inline void tile_test(Tile *tile, GiShapeRef ref, int packet, unsigned ra
         } else {
             test_closest(tile, ref, NULL, packet, rays);
         }
+    }
+}
+
+/* ---------------------------------------------------------------- solids */
+
+static inline void tile_places(Tile *tile) {
+    const GiShapes *shapes = tile->shapes;
+    for (int kind = 0; kind < 16; kind++)
+        tile->places[kind] = (Places){(const char *)tile->tree, 0};
+    tile->places[GI_SHAPE_SPHERE] = (Places){(const char *)shapes->spheres, sizeof(GiSphere)};
+    tile->places[GI_SHAPE_BOX] = (Places){(const char *)shapes->boxes, sizeof(GiBox)};
+    tile->places[GI_SHAPE_CONE] = (Places){(const char *)shapes->cones, sizeof(GiCone)};
+    tile->places[GI_SHAPE_PLACED] = (Places){(const char *)shapes->placements, sizeof(GiPlacement)};
+    tile->places[GI_SHAPE_INSTANCE] = (Places){(const char *)shapes->instances, sizeof(GiInstance)};
+}
+
+/* As prefetch_shape, without asking which kind it is: that cannot be foretold. */
+static inline void prefetch_small(const Tile *tile, GiShapeRef ref) {
+    const Places *places = &tile->places[gi_shape_kind(ref)];
+    prefetch(places->first + places->size * gi_shape_index(ref));
+}
+
+/* Solids are tested in loops over one kind, without a question that half of the time is answered
+ * wrong: which tests have rays left in which vectors is a list, and what is met is stored where it
+ * is nearer, not if any is. */
+typedef struct Part {
+    uint32_t solid, first; /* index; the first of GI_DOUBLES rays */
+    unsigned rays;         /* bits of those that look */
+} Part;
+
+enum { PART_TESTS = 64, PART_LIMIT = PART_TESTS * GI_PACKET_SIZE / GI_DOUBLES };
+
+/* As gi_wide_unplaced, of a kind that the compiler knows. */
+static inline M solid_meets(Tile *tile, GiShapeKind kind, const Part *part, R *t) {
+    const GiShapes *shapes = tile->shapes;
+    int i = (int)part->first;
+    gi_wide_Ray ray = tile_ray(tile, kind, i);
+    R t_min = tile_from(tile, i), t_max = tile_to(tile, i);
+    bool entering_only = shapes->entering_only;
+    switch (kind) {
+    case GI_SHAPE_SPHERE:
+        return gi_wide_sphere(&shapes->spheres[part->solid], &ray, t_min, t_max, t);
+    case GI_SHAPE_BOX:
+        return gi_wide_box(&shapes->boxes[part->solid], &ray, entering_only, t_min, t_max, t);
+    default: return gi_wide_cone(&shapes->cones[part->solid], &ray, entering_only, t_min, t_max, t);
+    }
+}
+
+static inline void closest_solids(Tile *tile, GiShapeKind kind, const Part *parts, int count) {
+    GiBundle *bundle = tile->bundle;
+    for (int k = 0; k < count; k++) {
+        int i = (int)parts[k].first, packet = i / GI_PACKET_SIZE;
+        GiShapeRef ref = gi_shape_ref(kind, parts[k].solid);
+        R t;
+        M hit = solid_meets(tile, kind, &parts[k], &t) & m_from_bits(parts[k].rays);
+        unsigned open = m_bits(hit) & tile->open[packet] >> i % GI_PACKET_SIZE;
+        if (open != 0) tile_settle(tile, packet, open << i % GI_PACKET_SIZE);
+        R best = r_load(bundle->t + i);
+        M nearer = hit & R_LESS(t, best);
+        unsigned bits = m_bits(nearer), ties = m_bits(hit & R_EQUAL(t, best));
+        r_store(bundle->t + i, R_SELECT(nearer, t, best));
+        u_store_where(bundle->shape + i, bits, ref.bits);
+        u_store_where(bundle->instance + i, bits, tile->instance);
+        tile->nearer[packet / 32] |= (uint32_t)(bits != 0) << packet % 32;
+        if (ties != 0) resolve_ties(tile, ref, i, ties);
+    }
+}
+
+static inline void any_solids(Tile *tile, GiShapeKind kind, const Part *parts, int count) {
+    for (int k = 0; k < count; k++) {
+        int i = (int)parts[k].first, packet = i / GI_PACKET_SIZE;
+        R t;
+        unsigned bits = m_bits(solid_meets(tile, kind, &parts[k], &t)) & parts[k].rays;
+        u_store_where(tile->bundle->shape + i, bits, gi_shape_ref(kind, parts[k].solid).bits);
+        packet_stop(tile, packet, bits << i % GI_PACKET_SIZE);
+    }
+}
+
+/* Not inline, so that each has all registers to itself. */
+static NOINLINE void closest_spheres(Tile *tile, const Part *parts, int count) {
+    closest_solids(tile, GI_SHAPE_SPHERE, parts, count);
+}
+static NOINLINE void closest_boxes(Tile *tile, const Part *parts, int count) {
+    closest_solids(tile, GI_SHAPE_BOX, parts, count);
+}
+static NOINLINE void closest_cones(Tile *tile, const Part *parts, int count) {
+    closest_solids(tile, GI_SHAPE_CONE, parts, count);
+}
+static NOINLINE void any_spheres(Tile *tile, const Part *parts, int count) {
+    any_solids(tile, GI_SHAPE_SPHERE, parts, count);
+}
+static NOINLINE void any_boxes(Tile *tile, const Part *parts, int count) {
+    any_solids(tile, GI_SHAPE_BOX, parts, count);
+}
+static NOINLINE void any_cones(Tile *tile, const Part *parts, int count) {
+    any_solids(tile, GI_SHAPE_CONE, parts, count);
+}
+
+static inline void test_parts(Tile *tile, GiShapeKind kind, const Part *parts, int count) {
+    if (count == 0) return;
+    switch (kind) {
+    case GI_SHAPE_SPHERE: (tile->any ? any_spheres : closest_spheres)(tile, parts, count); break;
+    case GI_SHAPE_BOX: (tile->any ? any_boxes : closest_boxes)(tile, parts, count); break;
+    default: (tile->any ? any_cones : closest_cones)(tile, parts, count); break;
+    }
+}
+
+/* The tests of one kind of solid, for rays that still look. */
+static inline void test_solids(Tile *tile, GiShapeKind kind, const Test *tests, int count) {
+    Part parts[PART_LIMIT];
+    for (int begin = 0; begin < count; begin += PART_TESTS) {
+        int end = begin + PART_TESTS < count ? begin + PART_TESTS : count, found = 0;
+        for (int k = begin; k < end; k++) {
+            const Test *test = &tests[k];
+            unsigned rays = test->rays & tile->alive[test->packet];
+            if (tile->any) rays &= ~spared_by(tile, test->shape, (int)test->packet);
+            COUNT(shapes, __builtin_popcount(rays));
+            for (int j = 0; j < GI_PACKET_SIZE; j += GI_DOUBLES) {
+                unsigned bits = rays >> j & ((1u << GI_DOUBLES) - 1);
+                uint32_t first = test->packet * GI_PACKET_SIZE + (uint32_t)j;
+                parts[found] = (Part){gi_shape_index(test->shape), first, bits};
+                found += bits != 0;
+            }
+        }
+        test_parts(tile, kind, parts, found);
     }
 }

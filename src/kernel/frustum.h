@@ -23,20 +23,36 @@ typedef struct Frustum {
     float axis[3][3]; /* u, v, w as rows */
     float plane[4][3];
     float a0, a1, b0, b1, far;
+    float spread;  /* 1 + |a| + |b|, at most */
     float start;   /* depth from which on nothing is before what the rays look at */
     float lost;    /* of a depth, by what doubles round */
     SeenFrom seen; /* triangles, from the apex */
 } Frustum;
 
-/* One shape to be tested against some rays of one packet. */
+/* One shape to be tested against some rays of one packet; known: what is certain of them has been
+ * taken already. */
 typedef struct Test {
     GiShapeRef shape;
     uint32_t packet, rays;
+    bool known;
 } Test;
 
 /* As many tests as come together before they are made: their shapes have the time to arrive from
  * memory, and what they would have hidden is not yet looked at too often. */
 enum { TEST_BATCH = 8, TEST_LIMIT = TEST_BATCH + GI_TREE_WIDTH * GI_PACKET_COUNT };
+
+/* Spheres, boxes and cones, which wait kind by kind. */
+#define SOLID_KINDS (GI_SHAPE_CONE + 1)
+typedef struct SolidTests {
+    int count;
+    Test tests[TEST_LIMIT];
+} SolidTests;
+
+/* Where the shapes of a kind are. */
+typedef struct Places {
+    const char *first;
+    size_t size; /* of one; 0: as good as none */
+} Places;
 
 typedef struct Tile {
     const GiTree *tree;
@@ -64,7 +80,9 @@ typedef struct Tile {
                                               they were looked at */
     int tests_made;                        /* since `stop` was asked */
     int taken;                             /* packets with rays that took a triangle, not flushed */
-    int test_count;
+    Places places[16];                     /* by kind */
+    SolidTests solids[SOLID_KINDS];
+    int test_count; /* of all other shapes */
     Test tests[TEST_LIMIT];
 } Tile;
 
@@ -259,6 +277,10 @@ static inline void tile_enclose(Tile *tile) {
         if (frustum->b0 > groups->b0[g]) frustum->b0 = groups->b0[g];
         if (frustum->b1 < groups->b1[g]) frustum->b1 = groups->b1[g];
     }
+    float a = fabsf(frustum->a0), b = fabsf(frustum->b0);
+    a = a > fabsf(frustum->a1) ? a : fabsf(frustum->a1);
+    b = b > fabsf(frustum->b1) ? b : fabsf(frustum->b1);
+    frustum->spread = 1 + a + b;
     tile_refresh_far(tile);
     frustum_planes(frustum);
 }

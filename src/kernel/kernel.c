@@ -24,6 +24,7 @@
 #include "kernel/decide.h"
 #include "kernel/certain.h"
 #include "kernel/triangle.h"
+#include "kernel/solid.h"
 #include "kernel/inside.h"
 #include "kernel/bundle.h"
 #include "kernel/light.h"

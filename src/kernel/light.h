@@ -105,12 +105,16 @@ static void GI_KERNEL(light)(const GiPoints *points, int begin, int end, const G
         R zero = R_OF(0);
         M dark = R_EQUAL(color.x, zero) & R_EQUAL(color.y, zero) & R_EQUAL(color.z, zero);
         M good = R_LESS(zero, way.square) & M_NOT(dark);
+        R nl = wide_dot(n, l);
         if (gloss->front_only) good = good & R_LESS_EQUAL(zero, wide_dot(n, v));
-        if (gloss->phong && gloss->needs_light) good = good & R_LESS(zero, wide_dot(n, l));
+        if (gloss->phong && gloss->needs_light) good = good & R_LESS(zero, nl);
         unsigned bits = m_bits(good);
         int left = end - i;
         if (left < GI_DOUBLES) bits &= (1u << left) - 1;
-        R away = gloss->away > 0 ? R_OF(gloss->away) : r_load(points->error + i);
+        R error = r_load(points->error + i), away = gloss->away > 0 ? R_OF(gloss->away) : error;
+        M clear = R_LESS(r_from_floats(points->clear + i), nl) & R_LESS_EQUAL(error, away);
+        u_store(lit->skip + i,
+            u_select(m_bits(clear), u_load(points->own + i), u_load(points->skip + i)));
         u_append_indices(lit->point + count, bits, (uint32_t)i);
         r_store(lit->red + i, color.x);
         r_store(lit->green + i, color.y);

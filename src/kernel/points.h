@@ -32,6 +32,10 @@ typedef struct GiPoints {
     uint32_t pixel[GI_POINT_ROOM];
     /* What shadow rays from here do not meet, or GI_SHAPE_NONE; or GI_LEFT for its instance. */
     uint32_t skip[GI_POINT_ROOM], skip_instance[GI_POINT_ROOM];
+    /* The shape a point is of, and the cosine between normal and light from which on a shadow ray
+     * that begins at `error` or farther away is certain not to meet that shape. */
+    uint32_t own[GI_POINT_ROOM];
+    float clear[GI_POINT_ROOM];
     int count;
 } GiPoints;
 
@@ -58,6 +62,8 @@ typedef struct GiLit {
     _Alignas(64) double red[GI_POINT_ROOM];
     double green[GI_POINT_ROOM], blue[GI_POINT_ROOM];
     double t_min[GI_POINT_ROOM];    /* of the shadow ray; the light is at t = 1 */
+    uint32_t skip[GI_POINT_ROOM];   /* what that ray need not be tested against, with the instance
+                                       of GiPoints */
     uint8_t arrives[GI_POINT_ROOM]; /* 1: nothing is in the way */
     /* Of those points alone to which it adds something. */
     int count;

@@ -75,8 +75,25 @@ static int GI_KERNEL(group)(const uint32_t *keys, int count, uint32_t *places, i
 typedef struct Hits {
     Wide o, d, p, n;
     R t, size; /* size: of the numbers beside the point's own */
+    R error;
+    R clear; /* both as in GiPoints */
     U shape, pixel;
 } Hits;
+
+/* What makes a shape clear of its own shadow rays. All are convex, and a ray meets one where it
+ * comes in or goes out, so it misses when it has left before it begins. A ray from a point of the
+ * surface leaves at t = 0, but for rounding, if it goes outward at all; so much is left to show
+ * that rounding is less than the distance E from which on it looks, E = 2^11 e S with e = 2^-53 and
+ * S = size + |p|, the numbers of shape and point. The point itself is off the surface by up to 16 e
+ * S; when the cosine of ray and normal is c, that is 16 e S / c along the ray. */
+static inline R hits_error(const Hits *hits) {
+    return (hits->size + wide_largest(hits->p)) * R_OF(GI_SURFACE_ERROR);
+}
+
+/* So that nothing changes within what the point is off: 2^10 E below a radius. */
+static inline M hits_tame(const Hits *hits, R radius) {
+    return R_LESS_EQUAL(hits->error * R_OF(1024), radius);
+}
 
 #define STREAM_GATHER(member) r_gather(&(member), hits->shape, stride)
 
@@ -89,6 +106,10 @@ static inline void hits_spheres(Hits *hits, const GiSphere *first) {
     hits->n = wide_normalize((Wide){hits->p.x - c.x, hits->p.y - c.y, hits->p.z - c.z});
     hits->p = wide_along(c, hits->n, radius);
     hits->size = radius;
+    hits->error = hits_error(hits);
+    /* Where the ray comes nearest to the centre errs by 10 e r, and the square of half the chord,
+     * (r c)^2, by 50 e r^2; half the chord thus by 25 e r / c. */
+    hits->clear = R_SELECT(hits_tame(hits, radius), R_OF(0x1p-5), R_OF(INFINITY));
 }
 
 /* One axis of a box: its two planes, and where the ray crosses them. */
@@ -126,6 +147,30 @@ static inline void hits_boxes(Hits *hits, const GiBox *first) {
     slab_face(&y, on_y, entering, &hits->p.y, &hits->n.y);
     slab_face(&z, M_NOT(on_x) & M_NOT(on_y), entering, &hits->p.z, &hits->n.z);
     hits->size = R_OF(0);
+    hits->error = hits_error(hits);
+    /* The point has a coordinate of the face it is on, so the ray leaves at zero, exactly. */
+    hits->clear = R_OF(0);
+}
+
+/* The cosines of points on cones that are not too flat, and of one nappe. On a cap the ray leaves
+ * where it leaves the slab, which errs by 16 e S / c.
+ *
+ * On the wall, q of wall_of is zero, and what it grows by along the ray is at least 2 rho c, rho
+ * being the wall's radius there. With a slope of at most one all lengths are less than 3 s, s the
+ * distance from the centre, and a, b, c err by less than 13 e, 41 e s and 86 e s^2, which the root
+ * in two steps does not add to; so q errs by less than 256 e s^2 and the root by 128 e s^2 / (rho
+ * c). Of a line steeper than the wall what is beyond the second root belongs to the other nappe;
+ * that root is no nearer to the slab than the line to the apex, rho c. */
+static inline R cone_clear(
+    const Hits *hits, const gi_wide_ConeLanes *cone, R half, M on_cap, R radius, R square) {
+    R slope = R_ABS(cone->slope), size = half + cone->radius;
+    M tame = R_LESS_EQUAL(slope, R_OF(1)) &
+             R_LESS_EQUAL(slope * half, cone->radius * R_OF(1 + 0x1p-40)) &
+             R_LESS(R_OF(0), cone->radius);
+    R wall = R_OF(0x1p-6) + R_OF(0x1p-45) * square / (radius * hits->error);
+    M on_wall = R_LESS_EQUAL(size, radius * R_OF(1024)) & hits_tame(hits, radius);
+    M known = tame & (on_cap | on_wall);
+    return R_SELECT(known, R_SELECT(on_cap, R_OF(0x1p-6), wall), R_OF(INFINITY));
 }
 
 /* As cone_point. */
@@ -157,6 +202,8 @@ static inline void hits_cones(Hits *hits, const GiCone *first, bool second_nappe
     hits->p.y = R_SELECT(on_wall, cone.y + y * part, hits->p.y);
     hits->p.z = R_SELECT(on_cap, cone.z + R_SELECT(top, half, -half), hits->p.z);
     hits->size = half + cone.radius;
+    hits->error = hits_error(hits);
+    hits->clear = cone_clear(hits, &cone, half, on_cap, radius, distance * distance + z * z);
 }
 
 #undef STREAM_GATHER
@@ -227,12 +274,15 @@ static inline void hits_triangles(Hits *hits, const GiShapes *shapes, const GiMe
         hits->n = (Wide){R_SELECT(blended, blend.x, hits->n.x),
             R_SELECT(blended, blend.y, hits->n.y), R_SELECT(blended, blend.z, hits->n.z)};
     }
+    hits->error = hits_error(hits);
+    hits->clear = R_OF(INFINITY);
 }
 
 static inline void hits_store(const Hits *hits, GiPoints *to, int at) {
     Wide p = hits->p, n = hits->n, d = hits->d;
     R zero = R_OF(0);
-    r_store(to->error + at, (hits->size + wide_largest(p)) * R_OF(GI_SURFACE_ERROR));
+    r_store(to->error + at, hits->error);
+    r_store_floats(to->clear + at, hits->clear);
     r_store(to->px + at, p.x), r_store(to->py + at, p.y), r_store(to->pz + at, p.z);
     r_store(to->nx + at, n.x), r_store(to->ny + at, n.y), r_store(to->nz + at, n.z);
     r_store(to->vx + at, -d.x), r_store(to->vy + at, -d.y), r_store(to->vz + at, -d.z);
@@ -292,6 +342,7 @@ static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, co
         hits_store(&hits, to, at);
         u_store(to->pixel + at, hits.pixel);
         u_store(to->skip + at, own != GI_OWN_MET ? shape : none);
+        u_store(to->own + at, shape);
         u_store(to->skip_instance + at, skip_instance);
     }
     if (kind == GI_SHAPE_TRIANGLE) points_normalize(to, to->count, to->count + count);
@@ -305,7 +356,7 @@ static void GI_KERNEL(shadows)(
     for (int i = 0; i < to->count; i += GI_DOUBLES) {
         U point = u_gather(lit->point, stream_load_short(order, i, to->count));
         u_store(to->pixel + i, point);
-        u_store(to->skip + i, u_gather(points->skip, point));
+        u_store(to->skip + i, u_gather(lit->skip, point));
         u_store(to->skip_instance + i, u_gather(points->skip_instance, point));
         Wide p = {r_gather(points->px, point, 1), r_gather(points->py, point, 1),
             r_gather(points->pz, point, 1)};

@@ -260,6 +260,10 @@ static inline void u_store(uint32_t *p, U a) { _mm256_storeu_si256((__m256i *)(v
 static inline U u_gather(const uint32_t *p, U index) {
     return _mm256_i32gather_epi32((const int *)(const void *)p, index, 4);
 }
+/* Those of a where bits are set. */
+static inline U u_select(unsigned bits, U a, U b) {
+    return _mm256_mask_blend_epi32((__mmask8)bits, b, a);
+}
 static inline bool u_is_one(U a) { /* all the same */
     return _mm256_cmpneq_epi32_mask(a, _mm256_broadcastd_epi32(_mm256_castsi256_si128(a))) == 0;
 }
@@ -327,6 +331,11 @@ static inline void u_store(uint32_t *p, U a) { _mm_storeu_si128((__m128i *)(void
 static inline U u_gather(const uint32_t *p, U index) {
     return _mm_i32gather_epi32((const int *)(const void *)p, index, 4);
 }
+static inline U u_select(unsigned bits, U a, U b) {
+    const __m128i each = _mm_setr_epi32(1, 2, 4, 8);
+    __m128i where = _mm_cmpeq_epi32(_mm_and_si128(_mm_set1_epi32((int)bits), each), each);
+    return _mm_blendv_epi8(b, a, where);
+}
 static inline bool u_is_one(U a) {
     return _mm_movemask_epi8(_mm_cmpeq_epi32(a, _mm_broadcastd_epi32(a))) == 0xffff;
 }
@@ -369,6 +378,9 @@ static inline void r_store(double *p, R a) { _mm_storeu_pd(p, a); }
 static inline void r_store_floats(float *p, R a) {
     _mm_storel_epi64((__m128i *)(void *)p, _mm_castps_si128(_mm_cvtpd_ps(a)));
 }
+static inline R r_from_floats(const float *p) {
+    return _mm_cvtps_pd(_mm_castsi128_ps(_mm_loadl_epi64((const __m128i *)(const void *)p)));
+}
 /* Two whole numbers in the lower half. */
 typedef __m128i U;
 static inline U u_of(uint32_t x) { return _mm_set1_epi32((int)x); }
@@ -376,6 +388,10 @@ static inline U u_load(const uint32_t *p) {
     return _mm_loadl_epi64((const __m128i *)(const void *)p);
 }
 static inline void u_store(uint32_t *p, U a) { _mm_storel_epi64((__m128i *)(void *)p, a); }
+static inline U u_select(unsigned bits, U a, U b) {
+    __m128i where = _mm_set_epi32(0, 0, -(int)(bits >> 1 & 1), -(int)(bits & 1));
+    return (a & where) | (b & ~where);
+}
 static inline size_t u_first(U a) { return (uint32_t)_mm_cvtsi128_si32(a); }
 static inline size_t u_second(U a) { return u_first(_mm_shuffle_epi32(a, 1)); }
 static inline bool u_is_one(U a) { return u_first(a) == u_second(a); }
@@ -408,10 +424,12 @@ static inline M m_from_bytes(const uint8_t *p) { return p[0]; }
 static inline R r_load(const double *p) { return *p; }
 static inline void r_store(double *p, R a) { *p = a; }
 static inline void r_store_floats(float *p, R a) { *p = (float)a; }
+static inline R r_from_floats(const float *p) { return (double)*p; }
 typedef uint32_t U;
 static inline U u_of(uint32_t x) { return x; }
 static inline U u_load(const uint32_t *p) { return *p; }
 static inline void u_store(uint32_t *p, U a) { *p = a; }
+static inline U u_select(unsigned bits, U a, U b) { return bits & 1 ? a : b; }
 static inline bool u_is_one(U a) {
     (void)a;
     return true;

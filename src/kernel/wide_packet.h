@@ -60,6 +60,7 @@ static inline P p_min(P a, P b) { return _mm512_min_ps(a, b); }
 static inline P p_max(P a, P b) { return _mm512_max_ps(a, b); }
 static inline P p_fused(P a, P b, P c) { return _mm512_fmadd_ps(a, b, c); }
 static inline P p_less_fused(P a, P b, P c) { return _mm512_fnmadd_ps(a, b, c); }
+static inline P p_size(P a) { return _mm512_abs_ps(a); }
 static inline unsigned p_less_equal(P a, P b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
 static inline unsigned p_less(P a, P b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
 static inline void p_fill_where(uint32_t *p, unsigned bits, uint32_t value) {
@@ -84,6 +85,7 @@ static inline P p_min(P a, P b) { return f_min(a, b); }
 static inline P p_max(P a, P b) { return f_max(a, b); }
 static inline P p_fused(P a, P b, P c) { return f_fused(a, b, c); }
 static inline P p_less_fused(P a, P b, P c) { return f_less_fused(a, b, c); }
+static inline P p_size(P a) { return f_max(a, f_of(0) - a); }
 static inline unsigned p_less_equal(P a, P b) { return f_less_equal(a, b); }
 static inline unsigned p_less(P a, P b) { return f_less(a, b); }
 enum { GI_PARTS = GI_WIDEST / GI_DOUBLES };

@@ -65,6 +65,7 @@ static void light_segment(const GiStage *stage, const GiLight *light, const GiSe
         int k = lit->count++;
         lit->red[i] = adds.x, lit->green[i] = adds.y, lit->blue[i] = adds.z;
         lit->t_min[i] = away * inverse;
+        lit->skip[i] = points->skip[i];
         lit->point[k] = (uint32_t)i;
         lit->x[k] = (float)l.x, lit->y[k] = (float)l.y, lit->z[k] = (float)l.z;
     }

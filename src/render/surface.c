@@ -41,8 +41,9 @@ static inline void add_point(
     const GiVec *color = &scratch->color[place->pixel];
     points->red[i] = color->x, points->green[i] = color->y, points->blue[i] = color->z;
     points->pixel[i] = place->pixel;
-    points->skip[i] = place->skip;
+    points->skip[i] = points->own[i] = place->skip;
     points->skip_instance[i] = place->skip_instance;
+    points->clear[i] = INFINITY;
     scratch->spots[i] = place->spot;
 }
 
