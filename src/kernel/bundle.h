@@ -71,16 +71,17 @@ typedef struct Pairs {
  * that go wrong half of the time would cost more than the work. */
 static inline void tile_pairs(
     const Tile *tile, const Rectangles *rectangles, unsigned bits, Pairs *pairs) {
-    pairs->count = 0;
+    int count = 0;
     for (int g = 0; g < GROUP_COUNT; g++) {
         unsigned rest = bits & tile_group(&tile->groups, g, rectangles);
         for (; rest != 0; rest &= rest - 1) {
             int lane = lowest_bit(rest);
             unsigned packets = tile_overlaps(&tile->packets, rectangles, lane, g * GROUP_SIZE);
-            pairs->count += sixteen_append(pairs->pair + pairs->count, packets,
-                (uint32_t)(lane * GI_PACKET_COUNT + g * GROUP_SIZE));
+            count += sixteen_append(
+                pairs->pair + count, packets, (uint32_t)(lane * GI_PACKET_COUNT + g * GROUP_SIZE));
         }
     }
+    pairs->count = count;
 }
 
 /* After the pairs of a leaf. Finding the frustum anew takes as long as a leaf. */
@@ -220,7 +221,7 @@ static inline void tile_walk(Tile *tile) {
 static inline GiTraceRay bundle_ray(const Tile *tile, int i) {
     const GiBundle *bundle = tile->bundle;
     GiTraceRay ray = {.origin = bundle->apex,
-        .direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]},
+        .direction = bundle_direction(bundle, tile->any, i),
         .t_min = bundle->start,
         .t_max = bundle->t[i],
         .skip = GI_SHAPE_NONE,
@@ -228,7 +229,7 @@ static inline GiTraceRay bundle_ray(const Tile *tile, int i) {
     if (!tile->any) return ray;
     ray.origin = gi_vec(bundle->ox[i], bundle->oy[i], bundle->oz[i]);
     ray.t_min = bundle->t_min[i];
-    ray.t_max = bundle->t_max[i];
+    ray.t_max = bundle->end;
     ray.skip = bundle->skip[i];
     ray.skip_instance = bundle->skip_instance[i];
     return ray;
@@ -255,7 +256,6 @@ static inline void bundle_one_by_one(const Tile *tile) {
 
 static inline void bundle_run(Tile *tile) {
     GiBundle *bundle = tile->bundle;
-    double toward = tile->any ? -1 : 1;
     tile->scale = tile->tree->scale;
     tile->test_count = tile->tests_made = 0;
     tile->emptied = 0;
@@ -266,10 +266,10 @@ static inline void bundle_run(Tile *tile) {
     int end = (bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE * GI_PACKET_SIZE;
     for (int i = 0; i < end; i++) bundle->shape[i] = bundle->instance[i] = GI_SHAPE_NONE;
     GiVec u, v, w;
-    if (bundle->count >= TILE_MINIMUM && tile_frame(bundle, toward, &u, &v, &w)) {
+    if (bundle->count >= TILE_MINIMUM && tile_frame(bundle, tile->any, &u, &v, &w)) {
         tile_pad(tile);
         tile_apex(tile);
-        tile->toward = gi_scale(w, toward);
+        tile->toward = tile->any ? gi_negate(w) : w;
         if (tile->any ? tile_packets(tile, true, u, v) : tile_packets(tile, false, u, v)) {
             tile_planes(tile, u, v, w);
             tile_walk(tile);

@@ -27,14 +27,13 @@ static void GI_KERNEL(view)(const GiView *view, const double *a, const double *b
         R s = r_load(a + i) - R_OF(0.5), t = r_load(b + i) - R_OF(0.5);
         Wide p = {R_OF(across->x) * s + R_OF(up->x) * t, R_OF(across->y) * s + R_OF(up->y) * t,
             R_OF(across->z) * s + R_OF(up->z) * t};
-        Wide o = {R_OF(view->eye.x), R_OF(view->eye.y), R_OF(view->eye.z)};
         Wide d = {R_OF(center->x), R_OF(center->y), R_OF(center->z)};
         if (view->parallel) {
-            o = wide_add(o, p);
+            Wide o = wide_add((Wide){R_OF(view->eye.x), R_OF(view->eye.y), R_OF(view->eye.z)}, p);
+            r_store(to->ox + i, o.x), r_store(to->oy + i, o.y), r_store(to->oz + i, o.z);
         } else {
             d = wide_normalize(wide_add(d, p));
         }
-        r_store(to->ox + i, o.x), r_store(to->oy + i, o.y), r_store(to->oz + i, o.z);
         r_store(to->dx + i, d.x), r_store(to->dy + i, d.y), r_store(to->dz + i, d.z);
     }
 }
@@ -83,9 +82,17 @@ typedef struct Hits {
 /* As sphere_point of shape.c. */
 static inline void hits_spheres(Hits *hits, const GiSphere *first) {
     enum { stride = sizeof *first / sizeof(double) };
-    Wide c = {STREAM_GATHER(first->center.x), STREAM_GATHER(first->center.y),
-        STREAM_GATHER(first->center.z)};
-    R radius = STREAM_GATHER(first->radius);
+    Wide c;
+    R radius;
+    if (u_is_one(hits->shape)) {
+        const GiSphere *sphere = first + u_first(hits->shape);
+        c = (Wide){R_OF(sphere->center.x), R_OF(sphere->center.y), R_OF(sphere->center.z)};
+        radius = R_OF(sphere->radius);
+    } else {
+        c = (Wide){STREAM_GATHER(first->center.x), STREAM_GATHER(first->center.y),
+            STREAM_GATHER(first->center.z)};
+        radius = STREAM_GATHER(first->radius);
+    }
     hits->n = wide_normalize((Wide){hits->p.x - c.x, hits->p.y - c.y, hits->p.z - c.z});
     hits->p = wide_along(c, hits->n, radius);
     hits->size = radius;
@@ -241,14 +248,27 @@ static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, co
     GiShapeKind kind = gi_shape_kind((GiShapeRef){bundle->shape[rays[0]]});
     const U index_bits = u_of(GI_SHAPE_INDEX_LIMIT - 1), none = u_of(GI_SHAPE_NONE);
     for (int i = 0; i < count; i += GI_DOUBLES) {
-        U ray = stream_load(rays, i, count), shape = u_gather(bundle->shape, ray);
-        Hits hits; /* no initializer, which would clear the rest of it each time */
+        U ray = stream_load(rays, i, count), shape, pixel;
+        Hits hits;           /* no initializer, which would clear the rest of it each time */
+        if (u_is_row(ray)) { /* mostly */
+            size_t k = u_first(ray);
+            shape = u_load(bundle->shape + k), pixel = u_load(bundle->pixel + k);
+            hits.d = (Wide){r_load(bundle->dx + k), r_load(bundle->dy + k), r_load(bundle->dz + k)};
+            hits.t = r_load(bundle->t + k);
+        } else {
+            shape = u_gather(bundle->shape, ray), pixel = u_gather(bundle->pixel, ray);
+            hits.d = (Wide){r_gather(bundle->dx, ray, 1), r_gather(bundle->dy, ray, 1),
+                r_gather(bundle->dz, ray, 1)};
+            hits.t = r_gather(bundle->t, ray, 1);
+        }
+        if (bundle->own) {
+            hits.o = (Wide){r_gather(bundle->ox, ray, 1), r_gather(bundle->oy, ray, 1),
+                r_gather(bundle->oz, ray, 1)};
+        } else {
+            const GiVec *apex = &bundle->apex;
+            hits.o = (Wide){R_OF(apex->x), R_OF(apex->y), R_OF(apex->z)};
+        }
         hits.shape = shape & index_bits;
-        hits.o = (Wide){r_gather(bundle->ox, ray, 1), r_gather(bundle->oy, ray, 1),
-            r_gather(bundle->oz, ray, 1)};
-        hits.d = (Wide){r_gather(bundle->dx, ray, 1), r_gather(bundle->dy, ray, 1),
-            r_gather(bundle->dz, ray, 1)};
-        hits.t = r_gather(bundle->t, ray, 1);
         hits.p = wide_along(hits.o, hits.d, hits.t);
         switch (kind) {
         case GI_SHAPE_SPHERE: hits_spheres(&hits, shapes->spheres); break;
@@ -258,7 +278,7 @@ static void GI_KERNEL(points)(const GiShapes *shapes, const GiBundle *bundle, co
         }
         int at = to->count + i;
         hits_store(&hits, to, at);
-        u_store(to->pixel + at, u_gather(bundle->pixel, ray));
+        u_store(to->pixel + at, pixel);
         u_store(to->skip + at, spared ? shape : none);
         u_store(to->skip_instance + at, none);
     }
@@ -271,17 +291,24 @@ static void GI_KERNEL(shadows)(
     const GiPoints *points, const GiLit *lit, const uint16_t *order, GiBundle *to) {
     for (int i = 0; i < to->count; i += GI_DOUBLES) {
         U point = u_gather(lit->point, stream_load_short(order, i, to->count));
+        Wide p;
+        R t_min;
         u_store(to->pixel + i, point);
-        u_store(to->skip + i, u_gather(points->skip, point));
-        u_store(to->skip_instance + i, u_gather(points->skip_instance, point));
-        Wide p = {r_gather(points->px, point, 1), r_gather(points->py, point, 1),
-            r_gather(points->pz, point, 1)};
+        if (u_is_row(point)) {
+            size_t k = u_first(point);
+            u_store(to->skip + i, u_load(points->skip + k));
+            u_store(to->skip_instance + i, u_load(points->skip_instance + k));
+            p = (Wide){r_load(points->px + k), r_load(points->py + k), r_load(points->pz + k)};
+            t_min = r_load(lit->t_min + k);
+        } else {
+            u_store(to->skip + i, u_gather(points->skip, point));
+            u_store(to->skip_instance + i, u_gather(points->skip_instance, point));
+            p = (Wide){r_gather(points->px, point, 1), r_gather(points->py, point, 1),
+                r_gather(points->pz, point, 1)};
+            t_min = r_gather(lit->t_min, point, 1);
+        }
         r_store(to->ox + i, p.x), r_store(to->oy + i, p.y), r_store(to->oz + i, p.z);
-        r_store(to->dx + i, R_OF(to->apex.x) - p.x);
-        r_store(to->dy + i, R_OF(to->apex.y) - p.y);
-        r_store(to->dz + i, R_OF(to->apex.z) - p.z);
-        r_store(to->t_min + i, r_gather(lit->t_min, point, 1));
-        r_store(to->t_max + i, R_OF(1));
+        r_store(to->t_min + i, t_min);
     }
 }
 

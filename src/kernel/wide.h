@@ -263,6 +263,12 @@ static inline U u_gather(const uint32_t *p, U index) {
 static inline bool u_is_one(U a) { /* all the same */
     return _mm256_cmpneq_epi32_mask(a, _mm256_broadcastd_epi32(_mm256_castsi256_si128(a))) == 0;
 }
+static inline bool u_is_row(U a) { /* each one more than the one before */
+    U row = _mm256_add_epi32(_mm256_broadcastd_epi32(_mm256_castsi256_si128(a)),
+        _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+    return _mm256_cmpneq_epi32_mask(a, row) == 0;
+}
+static inline size_t u_first(U a) { return (uint32_t)_mm_cvtsi128_si32(_mm256_castsi256_si128(a)); }
 static inline U u_widen(const uint16_t *p) {
     return _mm256_cvtepu16_epi32(_mm_loadu_si128((const __m128i *)(const void *)p));
 }
@@ -326,6 +332,11 @@ static inline U u_gather(const uint32_t *p, U index) {
 static inline bool u_is_one(U a) {
     return _mm_movemask_epi8(_mm_cmpeq_epi32(a, _mm_broadcastd_epi32(a))) == 0xffff;
 }
+static inline bool u_is_row(U a) {
+    U row = _mm_add_epi32(_mm_broadcastd_epi32(a), _mm_setr_epi32(0, 1, 2, 3));
+    return _mm_movemask_epi8(_mm_cmpeq_epi32(a, row)) == 0xffff;
+}
+static inline size_t u_first(U a) { return (uint32_t)_mm_cvtsi128_si32(a); }
 static inline U u_widen(const uint16_t *p) {
     return _mm_cvtepu16_epi32(_mm_loadl_epi64((const __m128i *)(const void *)p));
 }
@@ -374,6 +385,7 @@ static inline void u_store(uint32_t *p, U a) { _mm_storel_epi64((__m128i *)(void
 static inline size_t u_first(U a) { return (uint32_t)_mm_cvtsi128_si32(a); }
 static inline size_t u_second(U a) { return u_first(_mm_shuffle_epi32(a, 1)); }
 static inline bool u_is_one(U a) { return u_first(a) == u_second(a); }
+static inline bool u_is_row(U a) { return u_first(a) + 1 == u_second(a); }
 static inline U u_gather(const uint32_t *p, U index) {
     return _mm_set_epi32(0, 0, (int)p[u_second(index)], (int)p[u_first(index)]);
 }
@@ -410,6 +422,11 @@ static inline bool u_is_one(U a) {
     (void)a;
     return true;
 }
+static inline bool u_is_row(U a) {
+    (void)a;
+    return true;
+}
+static inline size_t u_first(U a) { return a; }
 static inline U u_gather(const uint32_t *p, U index) { return p[index]; }
 static inline U u_widen(const uint16_t *p) { return *p; }
 static inline R r_gather(const double *p, U index, int stride) {
