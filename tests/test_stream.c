@@ -267,6 +267,26 @@ static void check_add(const GiKernel *kernel, Streams *s) {
     }
 }
 
+/* ---------------------------------------------------------------- colours */
+
+static void check_colors(const GiKernel *kernel, Random *random) {
+    static const int samples[] = {1, 4, 9, 16, 25, 64};
+    GiVec sums[COUNT];
+    float colors[3 * COUNT + 1];
+    int count = 1 + random_below(random, COUNT), n = samples[random_below(random, 6)];
+    double exposure = random_below(random, 2) ? 1 : random_real(random, 0, 3);
+    for (int i = 0; i < count; i++) {
+        sums[i] = random_below(random, 8) ? random_vec(random, -2, 9) : gi_vec(0, -0.0, 1e30);
+    }
+    colors[3 * count] = 7; /* another's */
+    kernel->colors(sums, count, n, exposure, colors);
+    for (int i = 0; i < 3 * count; i++) {
+        float expected = (float)((&sums[0].x)[i] / n * exposure + 0.0);
+        CHECK(memcmp(&colors[i], &expected, sizeof expected) == 0);
+    }
+    CHECK(colors[3 * count] == 7);
+}
+
 /* ---------------------------------------------------------------- all kernels */
 
 static void kernels_agree(void) {
@@ -285,6 +305,7 @@ static void kernels_agree(void) {
             fill_lit(s, &random);
             check_shadows(kernel, s, &random);
             check_add(kernel, s);
+            check_colors(kernel, &random);
         }
     }
     free(s);

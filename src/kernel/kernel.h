@@ -110,6 +110,8 @@ typedef struct GiKernel {
         const GiPoints *points, const GiLit *lit, const uint16_t *order, GiBundle *bundle);
     /* Adds what arrives to what the points show. */
     void (*add)(const GiLit *lit, GiPoints *points);
+    /* Sums of samples to a pixel's three numbers. */
+    void (*colors)(const GiVec *sums, int count, int samples, double exposure, float *to);
     GiGammaFn encode; /* as gi_gamma_encode */
     /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT; leaves: of the scene's
      * trees. */

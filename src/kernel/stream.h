@@ -325,3 +325,28 @@ static void GI_KERNEL(add)(const GiLit *lit, GiPoints *points) {
         stream_add(points->blue + i, lit->blue + i, arrives);
     }
 }
+
+/* ---------------------------------------------------------------- colours */
+
+/* A quotient to the last bit: a power of two is divided by with a product, which takes a quarter of
+ * the time. The sum with zero makes one zero of two. */
+static inline R stream_color(R sum, int samples, double exposure) {
+    bool power = (samples & (samples - 1)) == 0;
+    R mean = power ? (R)(sum * R_OF(1.0 / samples)) : (R)(sum / R_OF((double)samples));
+    return mean * R_OF(exposure) + R_OF(0);
+}
+
+static void GI_KERNEL(colors)(
+    const GiVec *sums, int count, int samples, double exposure, float *to) {
+    const double *from = &sums->x;
+    int all = 3 * count, i = 0;
+    for (; i + GI_DOUBLES <= all; i += GI_DOUBLES) {
+        r_store_floats(to + i, stream_color(r_load(from + i), samples, exposure));
+    }
+    if (i == all) return;
+    double last[GI_DOUBLES] = {0};
+    float colors[GI_DOUBLES];
+    for (int k = 0; i + k < all; k++) last[k] = from[i + k];
+    r_store_floats(colors, stream_color(r_load(last), samples, exposure));
+    for (int k = 0; i + k < all; k++) to[i + k] = colors[k];
+}

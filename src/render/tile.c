@@ -180,19 +180,6 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Gi
     gi_flight_follow(stage);
 }
 
-/* A quotient to the last bit: a power of two is divided by with a product, which takes a quarter of
- * the time. The sum with zero makes one zero of two. */
-static void store_color(
-    const GiVec *sum, int width, int samples, double exposure, float *restrict to) {
-    const double *from = &sum->x;
-    double part = 1.0 / samples;
-    if ((samples & (samples - 1)) == 0) {
-        for (int i = 0; i < 3 * width; i++) to[i] = (float)(from[i] * part * exposure + 0.0);
-    } else {
-        for (int i = 0; i < 3 * width; i++) to[i] = (float)(from[i] / samples * exposure + 0.0);
-    }
-}
-
 static void store_vec(float *to, GiVec v) {
     to[0] = (float)v.x;
     to[1] = (float)v.y;
@@ -240,7 +227,7 @@ static bool store(const GiStage *stage, const GiRenderArea *area, const GiTileEx
     for (int row = 0; row < extent->height; row++) {
         size_t at = (size_t)(y + row) * (size_t)area->crop_width + (size_t)x;
         float own[3 * STRIDE], *color = target->color != NULL ? target->color + 3 * at : own;
-        store_color(sum + row * STRIDE, extent->width, count, exposure, color);
+        stage->world->kernel->colors(sum + row * STRIDE, extent->width, count, exposure, color);
         if (target->png != NULL && !gi_png_put(target->png, x, y + row, extent->width, color)) {
             return false;
         }
