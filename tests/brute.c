@@ -101,3 +101,13 @@ bool brute_force(const Fixture *fixture, const GiTraceRay *r, GiTraceHit *hit) {
     }
     return hit->shape.bits != GI_SHAPE_NONE;
 }
+
+GiTraceRay ray_of_bundle(const GiBundle *bundle, bool any, int i) {
+    if (!any) {
+        return (GiTraceRay){bundle->apex, gi_bundle_direction(bundle, i), bundle->start,
+            bundle->t[i], GI_SHAPE_NONE, GI_SHAPE_NONE};
+    }
+    GiVec origin = {bundle->ox[i], bundle->oy[i], bundle->oz[i]};
+    return (GiTraceRay){origin, gi_sub(bundle->apex, origin), bundle->t_min[i], bundle->end,
+        bundle->skip[i], bundle->skip_instance[i]};
+}

@@ -25,3 +25,6 @@ void fixture_end(Fixture *fixture);
 
 /* By shape/hit.h; of several at the same t the first in document order. */
 bool brute_force(const Fixture *fixture, const GiTraceRay *r, GiTraceHit *hit);
+
+/* Ray i of a bundle that is still to be traced, as one by itself. */
+GiTraceRay ray_of_bundle(const GiBundle *bundle, bool any, int i);

@@ -78,7 +78,11 @@ static void fill(const Fixture *fixture, GiVec center, GiVec half, bool small, b
     bundle->side = gi_vec(0, 0, 0);
     bundle->count = GI_BUNDLE_SIZE;
     bundle->start = 0;
-    bool early = random_below(random, 4) == 0;
+    bundle->end = random_below(random, 4) ? 1 : 1 + tiny(random) / 2;
+    if (bundle->end > 1) bundle->end = 1;
+    /* Where the shape may lie beyond. */
+    if (random_below(random, 8) == 0) bundle->end = random_real(random, 0.05, 1);
+    bundle->own = false;
     for (int i = 0; i < bundle->count; i++) {
         GiVec p = near_outline(fixture, ref, center, half, bundle->apex, random), o = bundle->apex;
         if (small && i % 64 == 0) p = gi_along(p, unit(random), 4 * size);
@@ -92,24 +96,19 @@ static void fill(const Fixture *fixture, GiVec center, GiVec half, bool small, b
         bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
         bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
         bundle->t_min[i] = random_below(random, 2) ? 0 : fabs(tiny(random));
-        bundle->t_max[i] = random_below(random, 4) ? 1 : 1 + tiny(random) / 2;
-        if (bundle->t_max[i] > 1) bundle->t_max[i] = 1;
-        /* Where the shape may lie beyond. */
-        if (early && random_below(random, 8) == 0) bundle->t_max[i] = random_real(random, 0.05, 1);
+        bundle->t[i] = INFINITY;
         bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
     }
 }
 
 static int differing(const Fixture *fixture, const GiKernel *kernel, bool any, GiBundle *bundle) {
+    static GiTraceRay rays[GI_BUNDLE_SIZE];
     int wrong = 0;
-    for (int i = 0; i < bundle->count; i++) bundle->t[i] = INFINITY;
+    for (int i = 0; i < bundle->count; i++) rays[i] = ray_of_bundle(bundle, any, i);
     (any ? kernel->bundle_any : kernel->bundle_closest)(&fixture->world.trace, bundle);
     for (int i = 0; i < bundle->count; i++) {
-        GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, any ? bundle->t_min[i] : bundle->start,
-            any ? bundle->t_max[i] : INFINITY, GI_SHAPE_NONE, GI_SHAPE_NONE};
         GiTraceHit hit;
-        bool meets = brute_force(fixture, &ray, &hit);
+        bool meets = brute_force(fixture, &rays[i], &hit);
         bool same = (bundle->shape[i] != GI_SHAPE_NONE) == meets;
         if (meets && !any) same &= memcmp(&bundle->t[i], &hit.t, sizeof hit.t) == 0;
         wrong += !same;

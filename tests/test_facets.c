@@ -80,6 +80,8 @@ static void aim(
     bundle->side = gi_vec(0, 0, 0);
     bundle->count = GI_BUNDLE_SIZE;
     bundle->start = random_below(random, 2) ? 0 : random_real(random, 0, 1.5);
+    bundle->end = random_below(random, 4) ? 1 : 1 - fabs(tiny(random));
+    bundle->own = false;
     for (int i = 0; i < bundle->count; i++) {
         uint32_t triangle = (uint32_t)random_below(random, 2 * LAYERS);
         GiVec p = point_on(fixture, triangle, random), o = bundle->apex;
@@ -92,7 +94,7 @@ static void aim(
         bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
         bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
         bundle->t_min[i] = random_below(random, 2) ? 0 : fabs(tiny(random));
-        bundle->t_max[i] = random_below(random, 4) ? 1 : 1 - fabs(tiny(random));
+        bundle->t[i] = INFINITY;
         bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
     }
 }
@@ -100,14 +102,15 @@ static void aim(
 /* Against the same with one ray at a time, which looks for nothing certain. */
 static int differing(const Fixture *fixture, const GiKernel *kernel, bool any, GiBundle *bundle) {
     int wrong = 0;
-    for (int i = 0; i < bundle->count; i++) bundle->t[i] = INFINITY;
+    static GiTraceRay rays[GI_BUNDLE_SIZE];
+    for (int i = 0; i < bundle->count; i++) {
+        bundle->t[i] = INFINITY;
+        rays[i] = ray_of_bundle(bundle, any, i);
+    }
     (any ? kernel->bundle_any : kernel->bundle_closest)(&fixture->world.trace, bundle);
     for (int i = 0; i < bundle->count; i++) {
-        GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, any ? bundle->t_min[i] : bundle->start,
-            any ? bundle->t_max[i] : INFINITY, GI_SHAPE_NONE, GI_SHAPE_NONE};
         GiTraceHit hit;
-        bool meets = brute_force(fixture, &ray, &hit);
+        bool meets = brute_force(fixture, &rays[i], &hit);
         bool same = (bundle->shape[i] != GI_SHAPE_NONE) == meets;
         if (meets && !any) {
             same &= bundle->shape[i] == hit.shape.bits && bundle->instance[i] == hit.instance;
@@ -176,12 +179,13 @@ static int differing_shadows(
     shadows.count = count;
     shadows.apex = light;
     shadows.side = gi_vec(0, 0, 0);
+    shadows.end = 1;
+    shadows.own = false;
     for (int i = 0; i < count; i++) {
         GiVec p = gi_vec(points.px[i], points.py[i], points.pz[i]), d = gi_sub(light, p);
         shadows.ox[i] = p.x, shadows.oy[i] = p.y, shadows.oz[i] = p.z;
         shadows.dx[i] = d.x, shadows.dy[i] = d.y, shadows.dz[i] = d.z;
         shadows.t_min[i] = points.error[i] / gi_length(d);
-        shadows.t_max[i] = 1;
         shadows.skip[i] = points.skip[i];
         shadows.skip_instance[i] = points.skip_instance[i];
     }

@@ -280,15 +280,12 @@ static void check_bundle(const Fixture *fixture, GiBundle *bundle, bool any, con
     static GiTraceRay rays[GI_BUNDLE_SIZE];
     static GiTraceHit expected[GI_BUNDLE_SIZE];
     for (int i = 0; i < bundle->count; i++) {
-        rays[i] = (GiTraceRay){{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
-            bundle->skip[i], bundle->skip_instance[i]};
-        if (!any) rays[i].t_min = bundle->start;
+        rays[i] = ray_of_bundle(bundle, any, i);
         brute_force(fixture, &rays[i], &expected[i]);
     }
     const GiKernel *kernel;
     for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
-        for (int i = 0; i < bundle->count; i++) bundle->t[i] = bundle->t_max[i];
+        for (int i = 0; i < bundle->count; i++) bundle->t[i] = rays[i].t_max;
         (any ? kernel->bundle_any : kernel->bundle_closest)(&fixture->world.trace, bundle);
         for (int i = 0; i < bundle->count; i++) {
             GiTraceHit hit = {bundle->t[i], {bundle->shape[i]}, bundle->instance[i]};
@@ -356,11 +353,15 @@ static GiVec bundle_apex(const Fixture *fixture, Room room, Random *random) {
     }
 }
 
-static void set_ray(GiBundle *bundle, int i, GiVec o, GiVec d, double t_min, double t_max) {
-    bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
+/* From the apex on, or up to it. */
+static void set_closest(GiBundle *bundle, int i, GiVec d, double t_max) {
     bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
+    bundle->t[i] = t_max;
+}
+
+static void set_any(GiBundle *bundle, int i, GiVec o, double t_min) {
+    bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
     bundle->t_min[i] = t_min;
-    bundle->t_max[i] = t_max;
     bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
 }
 
@@ -373,13 +374,15 @@ static void fill_bundle(
     if (random_below(random, 3) == 0) axis = gi_scale(nasty_direction(random), room.size);
     static const double starts[] = {0, 1e-9, 0.1};
     bundle->start = random_below(random, 2) ? 0 : starts[random_below(random, 3)];
+    bundle->end = random_below(random, 4) ? 1 : random_real(random, 0, 1);
+    bundle->own = false;
     bool varied = random_below(random, 4) == 0, sorted = random_below(random, 2) != 0;
     for (int i = 0; i < bundle->count; i++) {
         /* Sorted: sixteen in a row are neighbours. Otherwise in any order. */
         GiVec d = bundle_ray(fixture, spread, bundle->apex, axis, room.size, random);
         if (sorted && i % GI_PACKET_SIZE != 0) {
             int first = i / GI_PACKET_SIZE * GI_PACKET_SIZE;
-            GiVec lead = {bundle->dx[first], bundle->dy[first], bundle->dz[first]};
+            GiVec lead = ray_of_bundle(bundle, any, first).direction;
             if (any) lead = gi_negate(lead);
             d = gi_along(lead, random_vec(random, -1, 1), 0.01 * gi_length(lead));
         }
@@ -389,9 +392,7 @@ static void fill_bundle(
             d = gi_sub(bundle->apex, o);
             if (gi_vec_is_zero(d)) o = gi_add(o, d = gi_vec(-room.size, 0, 0));
             if (gi_vec_is_zero(gi_sub(bundle->apex, o))) o.x += room.size;
-            d = gi_sub(bundle->apex, o);
-            double end = random_below(random, 8) ? 1 : random_real(random, 0, 1);
-            set_ray(bundle, i, o, d, random_below(random, 2) ? 0 : 1e-9, end);
+            set_any(bundle, i, o, random_below(random, 2) ? 0 : 1e-9);
             if (i % 5 == 0 && fixture->things.count > 0) {
                 Thing thing = nasty_thing(fixture, random);
                 bundle->skip[i] = thing.ref.bits;
@@ -400,17 +401,19 @@ static void fill_bundle(
         } else {
             double length = varied && !sorted ? lengths[random_below(random, 4)] : 1;
             double end = random_below(random, 8) ? INFINITY : random_real(random, 0, 2) / length;
-            set_ray(bundle, i, bundle->apex, gi_scale(d, length), 0, end);
+            set_closest(bundle, i, gi_scale(d, length), end);
         }
         if (i % 11 != 0) continue;
-        GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
-            bundle->skip[i], bundle->skip_instance[i]};
+        GiTraceRay ray = ray_of_bundle(bundle, any, i);
         nasty_limits(fixture, any, random, &ray);
-        if (any && !(ray.t_max <= 1)) continue;
-        if (!any && i == 0) bundle->start = ray.t_min;
-        bundle->t_min[i] = ray.t_min, bundle->t_max[i] = ray.t_max;
-        bundle->skip[i] = ray.skip, bundle->skip_instance[i] = ray.skip_instance;
+        if (any) {
+            bundle->t_min[i] = ray.t_min;
+            bundle->skip[i] = ray.skip, bundle->skip_instance[i] = ray.skip_instance;
+            if (i == 0 && ray.t_max <= 1 && random_below(random, 2)) bundle->end = ray.t_max;
+        } else {
+            bundle->t[i] = ray.t_max;
+            if (i == 0) bundle->start = ray.t_min;
+        }
     }
 }
 

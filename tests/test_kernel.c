@@ -157,6 +157,9 @@ static void compare_bundle(const Fixture *fixture, const GiKernel *kernel, Rando
     bundle.apex = gi_add(at, random_vec(random, -2 * size, 2 * size));
     if (random_below(random, 4) == 0) bundle.apex = gi_add(at, gi_vec(0, 0, 50 * size));
     bundle.side = gi_vec(0, 0, 0);
+    bundle.start = 0;
+    bundle.end = 1;
+    bundle.own = false;
     GiVec middle = gi_add(at, random_vec(random, -size, size));
     double spread = size * pow(10, random_real(random, -4, 0.3));
     for (int i = 0; i < bundle.count; i++) {
@@ -168,8 +171,7 @@ static void compare_bundle(const Fixture *fixture, const GiKernel *kernel, Rando
         }
         bundle.ox[i] = o.x, bundle.oy[i] = o.y, bundle.oz[i] = o.z;
         bundle.dx[i] = d.x, bundle.dy[i] = d.y, bundle.dz[i] = d.z;
-        bundle.t_min[i] = any ? 1e-9 : 0;
-        bundle.t_max[i] = any ? 1 : INFINITY;
+        bundle.t_min[i] = 1e-9;
         bundle.t[i] = INFINITY;
         Thing skip = {{GI_SHAPE_NONE}, GI_SHAPE_NONE};
         if (any && i % 7 == 0) {
@@ -178,17 +180,16 @@ static void compare_bundle(const Fixture *fixture, const GiKernel *kernel, Rando
         bundle.skip[i] = skip.ref.bits;
         bundle.skip_instance[i] = skip.instance;
     }
+    static GiTraceRay rays[GI_BUNDLE_SIZE];
+    for (int i = 0; i < bundle.count; i++) rays[i] = ray_of_bundle(&bundle, any, i);
     if (any) {
         kernel->bundle_any(&fixture->world.trace, &bundle);
     } else {
         kernel->bundle_closest(&fixture->world.trace, &bundle);
     }
     for (int i = 0; i < bundle.count; i++) {
-        GiTraceRay ray = {{bundle.ox[i], bundle.oy[i], bundle.oz[i]},
-            {bundle.dx[i], bundle.dy[i], bundle.dz[i]}, bundle.t_min[i], bundle.t_max[i],
-            bundle.skip[i], bundle.skip_instance[i]};
         GiTraceHit expected;
-        bool hits = brute_force(fixture, &ray, &expected);
+        bool hits = brute_force(fixture, &rays[i], &expected);
         bool found = bundle.shape[i] != GI_SHAPE_NONE;
         bool same = found == hits;
         if (same && hits && !any) {

@@ -234,6 +234,8 @@ static void fill_bundle(Worker *worker, const Closed *closed, bool any, Random *
     bundle->count = BLOCK;
     bundle->apex = place_inside(closed, random);
     bundle->side = gi_vec(0, 0, 0);
+    bundle->end = 1;
+    bundle->own = false;
     for (int i = 0; i < BLOCK; i++) {
         GiVec d = direction_out(closed, bundle->apex, first, window, random), o = bundle->apex;
         if (any) {
@@ -244,7 +246,6 @@ static void fill_bundle(Worker *worker, const Closed *closed, bool any, Random *
         bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
         bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
         bundle->t_min[i] = 0;
-        bundle->t_max[i] = 1;
         bundle->t[i] = INFINITY;
         bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
     }

@@ -55,15 +55,17 @@ static void expect_equal(int k, const Picture *a, const Picture *b, const char *
         a->height, what, value);
 }
 
-/* With tiles of the given side, in an order by chance. */
-static Picture draw_with_side(GlintScene *scene, int width, int height, int side, Random *random) {
+/* With tiles of the given size, in an order by chance. */
+static Picture draw_with_size(
+    GlintScene *scene, int width, int height, GiTileSize size, Random *random) {
     Picture picture = {width, height, malloc((size_t)(width * height) * 3 * sizeof(float))};
     GiRenderArea area = {width, height, 0, 0, width, height};
     GiRenderTarget target = {.samples = 1, .color = picture.pixels};
     _Atomic bool stop = false;
     GiTileControl control = {&stop, NULL, 0};
     GiRenderCounts counts = {0};
-    int columns = (width + side - 1) / side, count = columns * ((height + side - 1) / side);
+    int columns = (width + size.width - 1) / size.width;
+    int count = columns * ((height + size.height - 1) / size.height);
     int *order = malloc((size_t)count * sizeof *order);
     GiTileScratch *scratch = gi_tile_scratch_create(&scene->world, &target);
     CHECK(picture.pixels != NULL && order != NULL && scratch != NULL);
@@ -73,8 +75,8 @@ static Picture draw_with_side(GlintScene *scene, int width, int height, int side
         order[at] = i;
     }
     for (int i = 0; i < count; i++) {
-        CHECK(gi_tile_draw(&scene->world, &area, order[i] % columns * side,
-            order[i] / columns * side, side, &target, scratch, &counts, &control));
+        CHECK(gi_tile_draw(&scene->world, &area, order[i] % columns * size.width,
+            order[i] / columns * size.height, size, &target, scratch, &counts, &control));
     }
     CHECK_INT(counts.camera_rays, width * height);
     gi_tile_scratch_destroy(&scene->memory, scratch);
@@ -91,14 +93,15 @@ static Picture draw_size(GlintScene *scene, int width, int height) {
 }
 
 static void sides(void) {
-    static const int tile_sides[] = {128, 100, 64, 33, 32, 31, 8, 5};
+    static const GiTileSize sizes[] = {
+        {128, 128}, {100, 100}, {64, 64}, {64, 32}, {33, 33}, {32, 32}, {7, 31}, {5, 5}};
     Random random = {41};
     for (int k = 0; k < NAMES; k++) {
         GlintScene *scene = scene_of(k, NULL, 2);
         Picture whole = draw_size(scene, 157, 131);
-        for (size_t i = 0; i < sizeof tile_sides / sizeof *tile_sides; i++) {
-            Picture tiled = draw_with_side(scene, 157, 131, tile_sides[i], &random);
-            expect_equal(k, &whole, &tiled, "tiles of side", tile_sides[i]);
+        for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+            Picture tiled = draw_with_size(scene, 157, 131, sizes[i], &random);
+            expect_equal(k, &whole, &tiled, "tiles of width", sizes[i].width);
             picture_free(&tiled);
         }
         picture_free(&whole);

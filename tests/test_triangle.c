@@ -150,6 +150,7 @@ static void closed_to_bundles(void) {
             bundle.count = 0;
             bundle.apex = gi_add(at, random_vec(&random, -0.2, 0.2));
             bundle.side = gi_vec(0, 0, 0);
+            bundle.own = false;
             for (int i = 0; i < 20000 && bundle.count < GI_BUNDLE_SIZE; i++) {
                 GiVec d = gi_sub(surface_point(&f, &random), bundle.apex);
                 if (gi_dot(d, axis) < 0.6 * gi_length(d) * gi_length(axis)) continue;

@@ -288,7 +288,7 @@ static inline void tile_walk(Tile *tile) {
 static inline GiTraceRay bundle_ray(const Tile *tile, int i) {
     const GiBundle *bundle = tile->bundle;
     GiTraceRay ray = {.origin = bundle->apex,
-        .direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]},
+        .direction = bundle_direction(bundle, tile->any, i),
         .t_min = bundle->start,
         .t_max = bundle->t[i],
         .skip = GI_SHAPE_NONE,
@@ -296,7 +296,7 @@ static inline GiTraceRay bundle_ray(const Tile *tile, int i) {
     if (!tile->any) return ray;
     ray.origin = gi_vec(bundle->ox[i], bundle->oy[i], bundle->oz[i]);
     ray.t_min = bundle->t_min[i];
-    ray.t_max = bundle->t_max[i];
+    ray.t_max = bundle->end;
     ray.skip = bundle->skip[i];
     ray.skip_instance = bundle->skip_instance[i];
     return ray;
@@ -323,7 +323,6 @@ static inline void bundle_one_by_one(const Tile *tile) {
 
 static inline void bundle_run(Tile *tile) {
     GiBundle *bundle = tile->bundle;
-    double toward = tile->any ? -1 : 1;
     tile->scale = tile->tree->scale;
     tile->test_count = tile->tests_made = tile->taken = 0;
     for (int kind = 0; kind < SOLID_KINDS; kind++) tile->solids[kind].count = 0;
@@ -336,10 +335,10 @@ static inline void bundle_run(Tile *tile) {
     int end = (bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE * GI_PACKET_SIZE;
     for (int i = 0; i < end; i++) bundle->shape[i] = bundle->instance[i] = GI_SHAPE_NONE;
     GiVec u, v, w;
-    if (bundle->count >= TILE_MINIMUM && tile_frame(bundle, toward, &u, &v, &w)) {
+    if (bundle->count >= TILE_MINIMUM && tile_frame(bundle, tile->any, &u, &v, &w)) {
         tile_pad(tile);
         tile_apex(tile);
-        tile->toward = gi_scale(w, toward);
+        tile->toward = tile->any ? gi_negate(w) : w;
         if (tile->any ? tile_packets(tile, true, u, v) : tile_packets(tile, false, u, v)) {
             tile_planes(tile, u, v, w);
             tile_walk(tile);

@@ -23,8 +23,8 @@ static void count_many_any(const GiTrace *trace, const GiTraceRay *rays, int cou
 
 static void count_bundle_closest(const GiTrace *trace, GiBundle *bundle) {
     for (int i = 0; i < bundle->count; i++) {
-        GiTraceRay ray = {bundle->apex, {bundle->dx[i], bundle->dy[i], bundle->dz[i]},
-            bundle->start, bundle->t[i], GI_SHAPE_NONE, GI_SHAPE_NONE};
+        GiTraceRay ray = {bundle->apex, gi_bundle_direction(bundle, i), bundle->start, bundle->t[i],
+            GI_SHAPE_NONE, GI_SHAPE_NONE};
         GiTraceHit hit;
         count_closest(trace, &ray, &hit);
         bundle->shape[i] = hit.shape.bits;
@@ -35,8 +35,8 @@ static void count_bundle_closest(const GiTrace *trace, GiBundle *bundle) {
 
 static void count_bundle_any(const GiTrace *trace, GiBundle *bundle) {
     for (int i = 0; i < bundle->count; i++) {
-        GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->t_min[i], bundle->t_max[i],
+        GiVec origin = {bundle->ox[i], bundle->oy[i], bundle->oz[i]};
+        GiTraceRay ray = {origin, gi_sub(bundle->apex, origin), bundle->t_min[i], bundle->end,
             bundle->skip[i], bundle->skip_instance[i]};
         bundle->shape[i] = count_any(trace, &ray) ? 0 : GI_SHAPE_NONE;
     }

@@ -7,21 +7,21 @@
 static inline gi_wide_Ray tile_line(const Tile *tile, int i) {
     const GiBundle *bundle = tile->bundle;
     const GiVec *apex = &bundle->apex;
+    R dx, dy, dz;
+    bundle_directions(bundle, tile->any, i, &dx, &dy, &dz);
     return (gi_wide_Ray){.ox = tile->any ? r_load(bundle->ox + i) : R_OF(apex->x),
         .oy = tile->any ? r_load(bundle->oy + i) : R_OF(apex->y),
         .oz = tile->any ? r_load(bundle->oz + i) : R_OF(apex->z),
-        .dx = r_load(bundle->dx + i),
-        .dy = r_load(bundle->dy + i),
-        .dz = r_load(bundle->dz + i)};
+        .dx = dx,
+        .dy = dy,
+        .dz = dz};
 }
 
 /* Where they begin and end. For closest there is no end but their best. */
 static inline R tile_from(const Tile *tile, int i) {
     return tile->any ? r_load(tile->bundle->t_min + i) : R_OF(tile->bundle->start);
 }
-static inline R tile_to(const Tile *tile, int i) {
-    return tile->any ? r_load(tile->bundle->t_max + i) : R_OF(INFINITY);
-}
+static inline R tile_to(const Tile *tile) { return R_OF(tile->any ? tile->bundle->end : INFINITY); }
 
 /* 1 / d.d. For d.d = 1 - e with |e| < 2^-28, and camera rays have unit length, nearly, the quotient
  * to the last bit is 1 + e, rounded, and up where that lies in the middle between two numbers. */
@@ -131,7 +131,7 @@ static NOINLINE void tile_settle(Tile *tile, int packet, unsigned rays) {
         R corners[3][3], t;
         for (int k = 0; k < 3; k++) r_rows(rows[k], corners[k]);
         const gi_wide_Ray ray = tile_ray(tile, GI_SHAPE_TRIANGLE, i);
-        gi_wide_triangle_at(corners, &ray, tile_from(tile, i), tile_to(tile, i), &t);
+        gi_wide_triangle_at(corners, &ray, tile_from(tile, i), tile_to(tile), &t);
         r_store(bundle->t + i, R_SELECT(m_from_bits(rays >> j), t, r_load(bundle->t + i)));
     }
 }
@@ -157,7 +157,7 @@ static inline void take_nearer(Tile *tile, GiShapeRef ref, int i, M hit, R t) {
 /* Where the rays from i on meet the shape; corners: of a triangle. */
 static inline M tile_meets(Tile *tile, GiShapeRef ref, R corners[3][3], int i, R *t) {
     gi_wide_Ray ray = tile_ray(tile, gi_shape_kind(ref), i);
-    R t_min = tile_from(tile, i), t_max = tile_to(tile, i);
+    R t_min = tile_from(tile, i), t_max = tile_to(tile);
     if (corners != NULL) return gi_wide_triangle_at(corners, &ray, t_min, t_max, t);
     return gi_wide_shape(tile->shapes, ref, &ray, t_min, t_max, t);
 }
@@ -251,7 +251,7 @@ static inline M solid_meets(Tile *tile, GiShapeKind kind, const Part *part, R *t
     const GiShapes *shapes = tile->shapes;
     int i = (int)part->first;
     gi_wide_Ray ray = tile_ray(tile, kind, i);
-    R t_min = tile_from(tile, i), t_max = tile_to(tile, i);
+    R t_min = tile_from(tile, i), t_max = tile_to(tile);
     bool entering_only = shapes->entering_only;
     switch (kind) {
     case GI_SHAPE_SPHERE:

@@ -88,6 +88,22 @@ typedef struct Tile {
 
 /* ---------------------------------------------------------------- set-up */
 
+/* The directions of the rays from i on. */
+static inline void bundle_directions(const GiBundle *bundle, bool any, int i, R *dx, R *dy, R *dz) {
+    if (any && !bundle->own) {
+        *dx = R_OF(bundle->apex.x) - r_load(bundle->ox + i);
+        *dy = R_OF(bundle->apex.y) - r_load(bundle->oy + i);
+        *dz = R_OF(bundle->apex.z) - r_load(bundle->oz + i);
+    } else {
+        *dx = r_load(bundle->dx + i), *dy = r_load(bundle->dy + i), *dz = r_load(bundle->dz + i);
+    }
+}
+
+static inline GiVec bundle_direction(const GiBundle *bundle, bool any, int i) {
+    if (!any || bundle->own) return gi_bundle_direction(bundle, i);
+    return gi_sub(bundle->apex, gi_vec(bundle->ox[i], bundle->oy[i], bundle->oz[i]));
+}
+
 /* A packet that nothing concerns. */
 static inline void packet_clear(Packets *packets, int k) {
     packets->a0[k] = packets->b0[k] = INFINITY;
@@ -99,34 +115,36 @@ static inline void tile_pad(Tile *tile) {
     GiBundle *bundle = tile->bundle;
     int end = (bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE * GI_PACKET_SIZE;
     for (int i = bundle->count; i < end; i++) {
-        bundle->dx[i] = bundle->dx[0];
-        bundle->dy[i] = bundle->dy[0];
-        bundle->dz[i] = bundle->dz[0];
+        if (!tile->any || bundle->own) {
+            bundle->dx[i] = bundle->dx[0];
+            bundle->dy[i] = bundle->dy[0];
+            bundle->dz[i] = bundle->dz[0];
+        }
         bundle->t[i] = 0;
         if (!tile->any) continue;
         bundle->ox[i] = bundle->ox[0];
         bundle->oy[i] = bundle->oy[0];
         bundle->oz[i] = bundle->oz[0];
-        bundle->t_min[i] = bundle->t_max[i] = 1;
+        bundle->t_min[i] = 1;
         bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
     }
 }
 
 /* The bundle's frame: w along the mean direction, u along `side` or, when that is not known, along
  * the longest extent of the rays. False when the rays are spread too wide for one plane. */
-static inline bool tile_frame(const GiBundle *bundle, double toward, GiVec *u, GiVec *v, GiVec *w) {
+static inline bool tile_frame(const GiBundle *bundle, bool any, GiVec *u, GiVec *v, GiVec *w) {
     GiVec sum = {0, 0, 0};
     /* A few rays tell the direction well enough; tile_packets looks at all of them. */
     for (int i = 0; i < bundle->count; i += 1 + bundle->count / 16) {
-        sum = gi_add(sum, gi_normalize(gi_vec(bundle->dx[i], bundle->dy[i], bundle->dz[i])));
+        sum = gi_add(sum, gi_normalize(bundle_direction(bundle, any, i)));
     }
-    *w = gi_normalize(gi_scale(sum, toward));
+    *w = gi_normalize(any ? gi_negate(sum) : sum);
     if (gi_vec_is_zero(*w)) return false;
     GiVec side = bundle->side;
     if (gi_vec_is_zero(side)) {
         int last = bundle->count - 1;
-        side = gi_sub(gi_normalize(gi_vec(bundle->dx[last], bundle->dy[last], bundle->dz[last])),
-            gi_normalize(gi_vec(bundle->dx[0], bundle->dy[0], bundle->dz[0])));
+        side = gi_sub(gi_normalize(bundle_direction(bundle, any, last)),
+            gi_normalize(bundle_direction(bundle, any, 0)));
     }
     *u = gi_sub(side, gi_scale(*w, gi_dot(side, *w)));
     if (gi_length(*u) < 1e-9 * gi_length(side) || gi_vec_is_zero(side)) {
@@ -144,21 +162,22 @@ static inline R tile_dot(GiVec a, R x, R y, R z) {
 
 /* The rays from i on: how deep a step of their length goes. */
 static inline R tile_depth(const Tile *tile, int i) {
-    const GiBundle *bundle = tile->bundle;
-    return tile_dot(
-        tile->toward, r_load(bundle->dx + i), r_load(bundle->dy + i), r_load(bundle->dz + i));
+    R dx, dy, dz;
+    bundle_directions(tile->bundle, tile->any, i, &dx, &dy, &dz);
+    return tile_dot(tile->toward, dx, dy, dz);
 }
 
 /* The rays from i on as points, and how deep they end. What is too oblique to the axis, more than
- * 66 degrees, is noted, and how deep they begin. */
-static inline void rays_place(Tile *tile, bool any, int i, GiVec u, GiVec v, M *oblique, R *start) {
+ * 66 degrees, is noted, and the largest depth there is. */
+static inline void rays_place(Tile *tile, bool any, int i, GiVec u, GiVec v, M *oblique, R *most) {
     const GiBundle *bundle = tile->bundle;
     const R one = R_OF(1);
     R a[GI_PARTS], b[GI_PARTS], depth[GI_PARTS], end[GI_PARTS];
     M tame = M_OF(true);
     for (int k = 0; k < GI_PARTS; k++) {
         int at = i + k * GI_DOUBLES;
-        R x = r_load(bundle->dx + at), y = r_load(bundle->dy + at), z = r_load(bundle->dz + at);
+        R x, y, z;
+        bundle_directions(bundle, any, at, &x, &y, &z);
         R square = x * x + y * y + z * z;
         depth[k] = tile_dot(tile->toward, x, y, z);
         a[k] = tile_dot(u, x, y, z);
@@ -171,11 +190,10 @@ static inline void rays_place(Tile *tile, bool any, int i, GiVec u, GiVec v, M *
         if (any) {
             /* Shadow rays end at the apex, so t counts from the other end. */
             to = one - r_load(bundle->t_min + at);
-            *start = R_MAX(*start, (one - r_load(bundle->t_max + at)) * depth[k]);
         } else {
             to = r_load(bundle->t + at);
-            *start = R_MAX(*start, R_OF(bundle->start) * depth[k]);
         }
+        *most = R_MAX(*most, depth[k]);
         end[k] = to * depth[k] * R_OF(tile->scale);
     }
     P scale = p_of(any ? -1 : 1);
@@ -205,7 +223,7 @@ static inline bool tile_packets(Tile *tile, bool any, GiVec u, GiVec v) {
     GiBundle *bundle = tile->bundle;
     Packets *packets = &tile->packets;
     M oblique = M_OF(false);
-    R start = R_OF(0);
+    R deepest = R_OF(0);
     for (int k = 0; k < GI_PACKET_COUNT; k++) {
         if (k * GI_PACKET_SIZE >= bundle->count) {
             packet_clear(packets, k);
@@ -214,7 +232,7 @@ static inline bool tile_packets(Tile *tile, bool any, GiVec u, GiVec v) {
         }
         int first = k * GI_PACKET_SIZE;
         for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
-            rays_place(tile, any, first + j, u, v, &oblique, &start);
+            rays_place(tile, any, first + j, u, v, &oblique, &deepest);
         }
         packets->a0[k] = f_lowest(tile->a + first, GI_PACKET_SIZE);
         packets->a1[k] = f_highest(tile->a + first, GI_PACKET_SIZE);
@@ -230,9 +248,10 @@ static inline bool tile_packets(Tile *tile, bool any, GiVec u, GiVec v) {
     }
     int rest = bundle->count % GI_PACKET_SIZE;
     if (rest != 0) tile->alive[bundle->count / GI_PACKET_SIZE] = (1u << rest) - 1;
-    double starts[GI_DOUBLES], most = 0;
-    r_store(starts, start);
-    for (int i = 0; i < GI_DOUBLES; i++) most = fmax(most, starts[i]);
+    double depths[GI_DOUBLES], most = 0;
+    r_store(depths, deepest);
+    for (int i = 0; i < GI_DOUBLES; i++) most = fmax(most, depths[i]);
+    most *= any ? 1 - bundle->end : bundle->start;
     Frustum *frustum = &tile->frustum;
     frustum->start = (float)(2 * most * tile->scale) + 2 * frustum->margin + 16 * frustum->lost;
     return m_bits(oblique) == 0;

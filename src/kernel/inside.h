@@ -42,7 +42,6 @@ static inline void take_inside(
             if (tile->any) {
                 inner->ox[to] = o[0][lane], inner->oy[to] = o[1][lane], inner->oz[to] = o[2][lane];
                 inner->t_min[to] = bundle->t_min[i];
-                inner->t_max[to] = bundle->t_max[i];
                 inner->skip[to] = bundle->skip[i];
                 inner->skip_instance[to] = bundle->skip_instance[i];
             } else {
@@ -98,6 +97,8 @@ static void tile_instance(Tile *tile, int first) {
     }
     if (inner.count == 0) return;
     inner.start = tile->bundle->start;
+    inner.end = tile->bundle->end;
+    inner.own = tile->any;
     inner.apex = gi_affine_point(to_object, tile->bundle->apex);
     inner.side = gi_affine_vector(to_object, tile->bundle->side);
     inner.without_t = false;

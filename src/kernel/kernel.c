@@ -48,6 +48,7 @@ const GiKernel GI_KERNEL(kernel) = {
     GI_KERNEL(light),
     GI_KERNEL(shadows),
     GI_KERNEL(add),
+    GI_KERNEL(colors),
     GI_KERNEL(encode),
     GI_KERNEL(regroup),
 };

@@ -35,23 +35,28 @@ typedef struct GiTraceHit {
 /* Up to GI_BUNDLE_SIZE rays whose lines pass through one point, traced together. Neighbours in the
  * arrays, sixteen at a time, should be neighbours in space. Two uses:
  *     closest   the rays start at the apex and look from t = start on (camera rays)
- *     any       the rays end there: origin + direction is the apex, t_max at most 1 (shadow rays
- *               of a point light)
- * In: for closest the directions, start, and in t how far each ray looks; for any everything up to
- * skip_instance. Out: shape (GI_SHAPE_NONE: nothing met) and, for closest, instance and t; without
- * t it stays what it is for some of those rays that have met triangles. */
+ *     any       the rays end there, at t = 1, and look up to t = end (shadow rays of a point light)
+ * In: for closest the directions, start, and in t how far each ray looks; for any the origins, end,
+ * t_min, skip and skip_instance; what is the same for all rays, or follows from the rest, would
+ * cost more to store and to load than to work out. Out: shape (GI_SHAPE_NONE: nothing met) and, for
+ * closest, instance and t; without t it stays what it is for some of those rays that have met
+ * triangles. */
 typedef struct GiBundle {
     _Alignas(64) double ox[GI_BUNDLE_ROOM];
     double oy[GI_BUNDLE_ROOM], oz[GI_BUNDLE_ROOM];
     double dx[GI_BUNDLE_ROOM], dy[GI_BUNDLE_ROOM], dz[GI_BUNDLE_ROOM];
-    double t_min[GI_BUNDLE_ROOM], t_max[GI_BUNDLE_ROOM];
+    double t_min[GI_BUNDLE_ROOM];
     uint32_t skip[GI_BUNDLE_ROOM], skip_instance[GI_BUNDLE_ROOM];
     double t[GI_BUNDLE_ROOM];
     uint32_t shape[GI_BUNDLE_ROOM], instance[GI_BUNDLE_ROOM];
     uint32_t pixel[GI_BUNDLE_ROOM]; /* of camera rays; of others the caller's */
     int count;                      /* 1 to GI_BUNDLE_SIZE */
     GiVec apex;
-    double start;
+    double start, end; /* end: at most 1 */
+    /* The rays have their own origins and directions after all. For any: those of an instance,
+     * whose directions are not just apex - origin, to the last bit. For closest: those of a
+     * parallel camera, which bundle_closest does not trace. */
+    bool own;
     GiVec side; /* a direction the packets are aligned with; zero: none known */
     bool without_t;
     /* Asked every few thousand exact tests, when it is not null; true: the bundle may stay
@@ -62,6 +67,15 @@ typedef struct GiBundle {
     double ix[GI_BUNDLE_ROOM], iy[GI_BUNDLE_ROOM], iz[GI_BUNDLE_ROOM];
     double inverse_square[GI_BUNDLE_ROOM];
 } GiBundle;
+
+/* Of a camera ray. */
+static inline GiVec gi_bundle_origin(const GiBundle *bundle, int i) {
+    return bundle->own ? gi_vec(bundle->ox[i], bundle->oy[i], bundle->oz[i]) : bundle->apex;
+}
+
+static inline GiVec gi_bundle_direction(const GiBundle *bundle, int i) {
+    return gi_vec(bundle->dx[i], bundle->dy[i], bundle->dz[i]);
+}
 
 #define GI_NO_KEY UINT32_MAX
 
@@ -75,7 +89,8 @@ typedef struct GiKernel {
     void (*many_any)(const GiTrace *trace, const GiTraceRay *rays, int count, bool *blocked);
     void (*bundle_closest)(const GiTrace *trace, GiBundle *bundle);
     void (*bundle_any)(const GiTrace *trace, GiBundle *bundle);
-    /* Origins and directions of the bundle's rays, through the window coordinates a and b. */
+    /* Directions of the bundle's rays, and of a parallel camera's their origins, through the window
+     * coordinates a and b. */
     void (*view)(const GiView *view, const double *a, const double *b, GiBundle *bundle);
     /* Sorts the places 0 to count - 1, at most GI_BUNDLE_SIZE, by their keys: those of equal keys
      * side by side, in order, up to ends[0], ends[1] and so on. Places with the key GI_NO_KEY are
@@ -98,6 +113,8 @@ typedef struct GiKernel {
         const GiPoints *points, const GiLit *lit, const uint16_t *order, GiBundle *bundle);
     /* Adds what arrives to what the points show. */
     void (*add)(const GiLit *lit, GiPoints *points);
+    /* Sums of samples to a pixel's three numbers. */
+    void (*colors)(const GiVec *sums, int count, int samples, double exposure, float *to);
     GiGammaFn encode; /* as gi_gamma_encode */
     /* x, y, z: count directions of any length, at most GI_REGROUP_LIMIT; leaves: of the scene's
      * trees. */

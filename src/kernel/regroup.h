@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 enum {
-    GI_BUNDLE_SIZE = 1024,
+    GI_BUNDLE_SIZE = 2048,
     GI_BUNDLE_ROOM = GI_BUNDLE_SIZE + 16, /* else all arrays would meet in the same cache sets */
     GI_PACKET_SIZE = 16,
     GI_PACKET_COUNT = GI_BUNDLE_SIZE / GI_PACKET_SIZE,

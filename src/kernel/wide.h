@@ -271,6 +271,7 @@ static inline bool u_is_run(U a) { /* each the one before, plus one */
     const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     return u_is_one(_mm256_sub_epi32(a, lane));
 }
+static inline size_t u_first(U a) { return (uint32_t)_mm_cvtsi128_si32(_mm256_castsi256_si128(a)); }
 static inline U u_widen(const uint16_t *p) {
     return _mm256_cvtepu16_epi32(_mm_loadu_si128((const __m128i *)(const void *)p));
 }
@@ -340,6 +341,7 @@ static inline bool u_is_one(U a) {
     return _mm_movemask_epi8(_mm_cmpeq_epi32(a, _mm_broadcastd_epi32(a))) == 0xffff;
 }
 static inline bool u_is_run(U a) { return u_is_one(_mm_sub_epi32(a, _mm_setr_epi32(0, 1, 2, 3))); }
+static inline size_t u_first(U a) { return (uint32_t)_mm_cvtsi128_si32(a); }
 static inline U u_widen(const uint16_t *p) {
     return _mm_cvtepu16_epi32(_mm_loadl_epi64((const __m128i *)(const void *)p));
 }
@@ -435,6 +437,7 @@ static inline bool u_is_one(U a) {
     return true;
 }
 static inline bool u_is_run(U a) { return u_is_one(a); }
+static inline size_t u_first(U a) { return a; }
 static inline U u_gather(const uint32_t *p, U index) { return p[index]; }
 static inline U u_widen(const uint16_t *p) { return *p; }
 static inline R r_gather(const double *p, U index, int stride) {

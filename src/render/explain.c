@@ -30,8 +30,8 @@ static void tell_pixel(const Explainer *explainer, int x, int y, int samples) {
 static bool explain_pixel(Explainer *explainer, const GiRenderArea *area, int x, int y) {
     const GiRenderArea pixel = {area->width, area->height, x, y, 1, 1};
     GiRenderCounts counts = {0};
-    if (!gi_tile_draw(explainer->world, &pixel, 0, 0, 1, &explainer->target, explainer->scratch,
-            &counts, &explainer->control)) {
+    if (!gi_tile_draw(explainer->world, &pixel, 0, 0, (GiTileSize){1, 1}, &explainer->target,
+            explainer->scratch, &counts, &explainer->control)) {
         return false;
     }
     if (explainer->record.out_of_memory) return false; /* of the last sample */

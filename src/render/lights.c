@@ -112,6 +112,8 @@ void gi_lights_trace(const GiStage *stage, GiVec light) {
         const uint16_t *order = scratch->regroup.order + begin;
         bundle->count = lit->count - begin < GI_BUNDLE_SIZE ? lit->count - begin : GI_BUNDLE_SIZE;
         bundle->apex = light;
+        bundle->end = 1;
+        bundle->own = false;
         bundle->side = scratch->regroup.side[begin / GI_BUNDLE_SIZE];
         world->kernel->shadows(points, lit, order, bundle);
         world->kernel->bundle_any(&world->trace, bundle);

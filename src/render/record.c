@@ -98,11 +98,12 @@ void gi_record_camera(const GiStage *stage) {
     record->rays.count = record->layers.count = record->branches.count = 0;
     record->lights.count = record->additions.count = 0;
     record->points.count = record->beams.count = record->next_beam = 0;
+    GiVec o = gi_bundle_origin(bundle, 0), d = gi_bundle_direction(bundle, 0);
     GlintExplainRay ray = {.kind = GLINT_RAY_CAMERA,
         .parent = GLINT_NONE,
         .level = 1,
-        .origin = {bundle->ox[0], bundle->oy[0], bundle->oz[0]},
-        .direction = {bundle->dx[0], bundle->dy[0], bundle->dz[0]},
+        .origin = {o.x, o.y, o.z},
+        .direction = {d.x, d.y, d.z},
         .t_min = bundle->start,
         .factor = {1, 1, 1},
         .weight = 1,

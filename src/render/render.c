@@ -2,7 +2,7 @@
 #include "render/render.h"
 
 #include "port/machine.h"
-#include "render/tile.h"
+#include "render/stage.h"
 
 #include <string.h>
 
@@ -13,7 +13,7 @@ typedef struct Render {
     const GiRenderTarget *target;
     GiTileScratch **scratch;
     GiRenderCounts *counts; /* a worker each */
-    int side;               /* of a tile */
+    GiTileSize size;        /* of a tile */
     int columns, rows;
     _Atomic int next, done;
     _Atomic bool stop;
@@ -59,8 +59,9 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
     for (;;) {
         int tile = atomic_fetch_add_explicit(&render->next, 1, memory_order_relaxed);
         if (tile >= render->columns * render->rows || atomic_load(&render->stop)) break;
-        int x = tile % render->columns * render->side, y = tile / render->columns * render->side;
-        if (!gi_tile_draw(render->world, render->area, x, y, render->side, render->target,
+        int x = tile % render->columns * render->size.width;
+        int y = tile / render->columns * render->size.height;
+        if (!gi_tile_draw(render->world, render->area, x, y, render->size, render->target,
                 render->scratch[worker], &counts, &control)) {
             break;
         }
@@ -77,15 +78,22 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
     render->counts[worker].other_rays += counts.other_rays;
 }
 
-/* The side of tiles. In a large tree many rays share what they fetch of it; where the tree stays in
+/* The size of tiles. In a large tree many rays share what they fetch of it; where the tree stays in
  * a core's cache, it is better that a tile's own numbers stay there too. And many tiles share out
  * better: at least sixteen for every worker. */
-static int tile_side(const GiWorld *world, const GiRenderArea *area, size_t workers) {
-    const size_t large_tree = 4 << 20;
-    double pixels = (double)area->crop_width * area->crop_height;
-    int side = world->tree_bytes > large_tree ? GI_TILE_SIDE_LIMIT : GI_TILE_SIDE_LIMIT / 2;
-    while (side > GI_RENDER_TILE_LEAST && pixels < 16.0 * (double)workers * side * side) side /= 2;
-    return side;
+static GiTileSize tile_size(const GiWorld *world, const GiRenderArea *area, size_t workers) {
+    static const struct {
+        GiTileSize size;
+        size_t tree_bytes; /* at least */
+    } choices[] = {{{GI_TILE_SIDE_LIMIT, GI_TILE_SIDE_LIMIT}, 4 << 20}, {{64, 64}, 2 << 20},
+        {{GI_BLOCK_WIDTH, GI_BLOCK_HEIGHT}, 0}};
+    double pixels = (double)area->crop_width * area->crop_height / (double)workers;
+    for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
+        GiTileSize size = choices[i].size;
+        bool many = pixels >= 16.0 * size.width * size.height;
+        if (many && world->tree_bytes >= choices[i].tree_bytes) return size;
+    }
+    return (GiTileSize){GI_RENDER_TILE_LEAST, GI_RENDER_TILE_LEAST};
 }
 
 GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *area,
@@ -93,9 +101,9 @@ GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *ar
     GiMemory *memory = world->scene->memory;
     size_t workers = (size_t)gi_pool_worker_count(pool);
     Render render = {.world = world, .area = area, .monitor = monitor, .target = target};
-    render.side = tile_side(world, area, workers);
-    render.columns = (area->crop_width + render.side - 1) / render.side;
-    render.rows = (area->crop_height + render.side - 1) / render.side;
+    render.size = tile_size(world, area, workers);
+    render.columns = (area->crop_width + render.size.width - 1) / render.size.width;
+    render.rows = (area->crop_height + render.size.height - 1) / render.size.height;
     size_t scratch_size = workers * sizeof *render.scratch;
     size_t counts_size = workers * sizeof *render.counts;
     render.scratch = gi_memory_allocate(memory, scratch_size);

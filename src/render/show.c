@@ -167,8 +167,8 @@ static bool cost_of(Showing *showing, uint32_t x, uint32_t y, int worker, float 
         .crop_height = 1};
     const GiTileControl control = {&showing->stop, NULL, worker};
     gi_counting_take();
-    bool drawn = gi_tile_draw(showing->counting, &area, 0, 0, 1, &target, showing->scratch[worker],
-        &showing->counts[worker], &control);
+    bool drawn = gi_tile_draw(showing->counting, &area, 0, 0, (GiTileSize){1, 1}, &target,
+        showing->scratch[worker], &showing->counts[worker], &control);
     *value = (float)gi_counting_take();
     return drawn;
 }

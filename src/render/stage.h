@@ -165,7 +165,8 @@ typedef struct GiTileExtent {
     int x, y, width, height;
 } GiTileExtent;
 
-enum { GI_BLOCK_SIDE = 32 }; /* a bundle of camera rays: 32 x 32 pixels */
+/* A bundle of camera rays. */
+enum { GI_BLOCK_WIDTH = 64, GI_BLOCK_HEIGHT = 32 };
 
 /* Readies the camera rays of one sample of every pixel; offsets from 0 to 1. */
 void gi_tile_aim(const GiStage *stage, const GiRenderArea *area, const GiTileExtent *extent,

@@ -330,10 +330,9 @@ static void note_seen(
     }
 }
 
-static Met met_of_bundle(const GiBundle *bundle, uint32_t i) {
-    return (Met){{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-        {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, {1, 1, 1}, bundle->t[i], {1, 1, false},
-        {bundle->shape[i]}, bundle->instance[i], bundle->pixel[i], 0};
+static Met met_of_bundle(const GiBundle *bundle, int i) {
+    return (Met){gi_bundle_origin(bundle, i), gi_bundle_direction(bundle, i), {1, 1, 1},
+        bundle->t[i], {1, 1, false}, {bundle->shape[i]}, bundle->instance[i], bundle->pixel[i], 0};
 }
 
 /* A camera ray's: its color is set, not added to. */
@@ -350,14 +349,13 @@ static void meet_surface(const GiStage *stage, const Met *met, uint32_t shader_i
 
 /* The same for a surface that is only lit. Most are, so nothing is put together in memory that is
  * not needed. */
-static inline void meet_plain(const GiStage *stage, uint32_t i, uint32_t shader_index) {
+static inline void meet_plain(const GiStage *stage, int i, uint32_t shader_index) {
     const GiWorld *world = stage->world;
     GiTileScratch *scratch = stage->scratch;
     const GiBundle *bundle = &scratch->bundle;
     const GiShader *shader = &world->scene->shaders.data[shader_index];
     GiShapeRef shape = {bundle->shape[i]};
-    GiVec origin = gi_vec(bundle->ox[i], bundle->oy[i], bundle->oz[i]);
-    GiVec direction = gi_vec(bundle->dx[i], bundle->dy[i], bundle->dz[i]);
+    GiVec origin = gi_bundle_origin(bundle, i), direction = gi_bundle_direction(bundle, i);
     GiSurfacePoint at = gi_shape_point(&world->shapes, shape, bundle->instance[i], origin,
         direction, bundle->t[i], world->rules->cone_geometric);
     if (world->shapes.normal_faults != 0) {
@@ -440,9 +438,9 @@ static void meet_group(const GiStage *stage, uint32_t key, const uint32_t *rays,
     }
     for (int i = 0; i < count; i++) {
         if (plain) {
-            meet_plain(stage, rays[i], index);
+            meet_plain(stage, (int)rays[i], index);
         } else {
-            const Met met = met_of_bundle(&scratch->bundle, rays[i]);
+            const Met met = met_of_bundle(&scratch->bundle, (int)rays[i]);
             meet_surface(stage, &met, index);
         }
     }
@@ -460,12 +458,17 @@ void gi_surface_bundle(const GiStage *stage) {
     MeshKey last = {0, 0, 0};
     for (int i = 0; i < bundle->count; i++) {
         GiShapeRef shape = {bundle->shape[i]};
+        if (i > 0 && keys[i - 1] != GI_NO_KEY && shape.bits == bundle->shape[i - 1] &&
+            bundle->instance[i] == bundle->instance[i - 1]) {
+            keys[i] = keys[i - 1]; /* as mostly */
+            continue;
+        }
         keys[i] = GI_NO_KEY;
         if (shape.bits == GI_SHAPE_NONE) {
-            GiVec direction = {bundle->dx[i], bundle->dy[i], bundle->dz[i]};
-            show_first(stage, bundle->pixel[i], background(stage, NULL, direction));
+            GiVec light = background(stage, NULL, gi_bundle_direction(bundle, i));
+            show_first(stage, bundle->pixel[i], light);
         } else if (gi_shape_kind(shape) == GI_SHAPE_RECTANGLE) {
-            Met met = met_of_bundle(bundle, (uint32_t)i);
+            Met met = met_of_bundle(bundle, i);
             show_first(stage, met.pixel, rectangle_emission(stage, NULL, &met));
         } else if (gi_shape_kind(shape) != GI_SHAPE_TRIANGLE ||
                    bundle->instance[i] != GI_SHAPE_NONE) {

@@ -5,7 +5,7 @@
 
 enum {
     PACKET_SIDE = 4, /* a packet: 4 x 4 */
-    PACKETS_ACROSS = GI_BLOCK_SIDE / PACKET_SIDE,
+    PACKETS_ACROSS = GI_BLOCK_WIDTH / PACKET_SIDE,
     STRIDE = GI_TILE_STRIDE
 };
 
@@ -61,9 +61,8 @@ static void trace_apart(const GiStage *stage) {
     GiTraceRay rays[GI_BUNDLE_SIZE];
     GiTraceHit hits[GI_BUNDLE_SIZE];
     for (int i = 0; i < bundle->count; i++) {
-        rays[i] = (GiTraceRay){{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->start, INFINITY, GI_SHAPE_NONE,
-            GI_SHAPE_NONE};
+        rays[i] = (GiTraceRay){gi_bundle_origin(bundle, i), gi_bundle_direction(bundle, i),
+            bundle->start, INFINITY, GI_SHAPE_NONE, GI_SHAPE_NONE};
     }
     world->kernel->many_closest(&world->trace, rays, bundle->count, hits);
     for (int i = 0; i < bundle->count; i++) {
@@ -81,9 +80,8 @@ static void trace_listed(const GiStage *stage) {
     GiBundle *bundle = &stage->scratch->bundle;
     bool last = world->rules->hit == GI_HIT_LAST;
     for (int i = 0; i < bundle->count; i++) {
-        GiTraceRay ray = {{bundle->ox[i], bundle->oy[i], bundle->oz[i]},
-            {bundle->dx[i], bundle->dy[i], bundle->dz[i]}, bundle->start, INFINITY, GI_SHAPE_NONE,
-            GI_SHAPE_NONE};
+        GiTraceRay ray = {gi_bundle_origin(bundle, i), gi_bundle_direction(bundle, i),
+            bundle->start, INFINITY, GI_SHAPE_NONE, GI_SHAPE_NONE};
         GiTraceHit hit;
         uint32_t best = 0;
         bundle->shape[i] = GI_SHAPE_NONE;
@@ -139,6 +137,7 @@ static void set_rays(const GiStage *stage, const GiTileExtent *extent, int block
     }
     bundle->count = count;
     bundle->apex = view->eye;
+    bundle->own = view->parallel;
     bundle->side = view->across;
     /* The point on a triangle does not depend on t (shape.c), but depths do. */
     bundle->without_t = scratch->seen == NULL && !gi_stage_records(stage);
@@ -172,8 +171,8 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Gi
     scratch->points.count = scratch->segment_count = 0;
     scratch->weighted = scratch->shared = false;
     gi_tile_aim(stage, area, extent, offset_x, offset_y);
-    for (int y = 0; y < extent->height; y += GI_BLOCK_SIDE) {
-        for (int x = 0; x < extent->width; x += GI_BLOCK_SIDE) {
+    for (int y = 0; y < extent->height; y += GI_BLOCK_HEIGHT) {
+        for (int x = 0; x < extent->width; x += GI_BLOCK_WIDTH) {
             if (gi_tile_trace_block(stage, extent, x, y) == 0) return;
             gi_surface_bundle(stage);
         }
@@ -181,19 +180,6 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Gi
     stage->counts->camera_rays += (uint64_t)extent->width * (uint64_t)extent->height;
     gi_lights_add(stage);
     gi_flight_follow(stage);
-}
-
-/* A quotient to the last bit: a power of two is divided by with a product, which takes a quarter of
- * the time. The sum with zero makes one zero of two. */
-static void store_color(
-    const GiVec *sum, int width, int samples, double exposure, float *restrict to) {
-    const double *from = &sum->x;
-    double part = 1.0 / samples;
-    if ((samples & (samples - 1)) == 0) {
-        for (int i = 0; i < 3 * width; i++) to[i] = (float)(from[i] * part * exposure + 0.0);
-    } else {
-        for (int i = 0; i < 3 * width; i++) to[i] = (float)(from[i] / samples * exposure + 0.0);
-    }
 }
 
 static void store_vec(float *to, GiVec v) {
@@ -243,7 +229,7 @@ static bool store(const GiStage *stage, const GiRenderArea *area, const GiTileEx
     for (int row = 0; row < extent->height; row++) {
         size_t at = (size_t)(y + row) * (size_t)area->crop_width + (size_t)x;
         float own[3 * STRIDE], *color = target->color != NULL ? target->color + 3 * at : own;
-        store_color(sum + row * STRIDE, extent->width, count, exposure, color);
+        stage->world->kernel->colors(sum + row * STRIDE, extent->width, count, exposure, color);
         if (target->png != NULL && !gi_png_put(target->png, x, y + row, extent->width, color)) {
             return false;
         }
@@ -254,12 +240,12 @@ static bool store(const GiStage *stage, const GiRenderArea *area, const GiTileEx
            gi_png_account(target->png, y, extent->height, extent->width, stage->control->worker);
 }
 
-bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
+bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, GiTileSize size,
     const GiRenderTarget *target, GiTileScratch *scratch, GiRenderCounts *counts,
     const GiTileControl *control) {
     GiTileExtent extent = {area->x + x, area->y + y, area->crop_width - x, area->crop_height - y};
-    if (extent.width > side) extent.width = side;
-    if (extent.height > side) extent.height = side;
+    if (extent.width > size.width) extent.width = size.width;
+    if (extent.height > size.height) extent.height = size.height;
     GiStage stage = {world, control, scratch, counts, target, target->record, (uint32_t)extent.x,
         (uint32_t)extent.y, 0};
     scratch->bundle.stop = ask;

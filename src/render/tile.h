@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * One square of the picture, drawn by one worker in stages: camera rays to hits, hits and lights to
- * shadow rays, shadow rays to light. A stage works on all the tile's pixels before the next
+ * One rectangle of the picture, drawn by one worker in stages: camera rays to hits, hits and lights
+ * to shadow rays, shadow rays to light. A stage works on all the tile's pixels before the next
  * begins, so that rays meet the kernels in numbers. */
 #pragma once
 
 #include "render/render.h"
 
 enum { GI_TILE_SIDE_LIMIT = 128 };
+
+typedef struct GiTileSize {
+    int width, height;
+} GiTileSize;
 
 typedef struct GiTileScratch GiTileScratch;
 
@@ -24,9 +28,9 @@ typedef struct GiTileControl {
     int worker;
 } GiTileControl;
 
-/* Draws the part of the tile with corner (x, y) and the given side that lies in the area. control
+/* Draws the part of the tile with corner (x, y) and the given size that lies in the area. control
  * is asked every few hundred rays; when it says stop, or there is no memory for what was drawn, the
  * tile stays unfinished: false. */
-bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, int side,
+bool gi_tile_draw(const GiWorld *world, const GiRenderArea *area, int x, int y, GiTileSize size,
     const GiRenderTarget *target, GiTileScratch *scratch, GiRenderCounts *counts,
     const GiTileControl *control);
