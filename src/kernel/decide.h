@@ -221,8 +221,9 @@ static inline void tile_test(Tile *tile, GiShapeRef ref, int packet, unsigned ra
 
 static inline void tile_places(Tile *tile) {
     const GiShapes *shapes = tile->shapes;
-    for (int kind = 0; kind < 16; kind++)
+    for (int kind = 0; kind < KIND_COUNT; kind++) {
         tile->places[kind] = (Places){(const char *)tile->tree, 0};
+    }
     tile->places[GI_SHAPE_SPHERE] = (Places){(const char *)shapes->spheres, sizeof(GiSphere)};
     tile->places[GI_SHAPE_BOX] = (Places){(const char *)shapes->boxes, sizeof(GiBox)};
     tile->places[GI_SHAPE_CONE] = (Places){(const char *)shapes->cones, sizeof(GiCone)};

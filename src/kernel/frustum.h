@@ -48,7 +48,8 @@ typedef struct SolidTests {
     Test tests[TEST_LIMIT];
 } SolidTests;
 
-/* Where the shapes of a kind are. */
+/* Where the shapes of a kind are; of all kinds that a ref has bits for. */
+enum { KIND_COUNT = 16 };
 typedef struct Places {
     const char *first;
     size_t size; /* of one; 0: as good as none */
@@ -80,7 +81,7 @@ typedef struct Tile {
                                               they were looked at */
     int tests_made;                        /* since `stop` was asked */
     int taken;                             /* packets with rays that took a triangle, not flushed */
-    Places places[16];                     /* by kind */
+    Places places[KIND_COUNT];
     SolidTests solids[SOLID_KINDS];
     int test_count; /* of all other shapes */
     Test tests[TEST_LIMIT];
