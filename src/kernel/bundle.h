@@ -81,7 +81,7 @@ typedef struct Pairs {
 static inline void tile_pairs(
     const Tile *tile, const Rectangles *rectangles, unsigned bits, Pairs *pairs) {
     int count = 0; /* not in memory, which vectors might be written over */
-    for (int g = 0; g < GROUP_COUNT; g++) {
+    for (int g = 0; g < tile->group_count; g++) {
         unsigned rest = bits & tile_group(&tile->groups, g, rectangles);
         for (; rest != 0; rest &= rest - 1) {
             int lane = lowest_bit(rest);

@@ -9,6 +9,7 @@
 
 enum {
     GI_BUNDLE_SIZE = 2048,
+    GI_BUNDLE_LEAST = 1024,               /* what a caller may have as its size instead */
     GI_BUNDLE_ROOM = GI_BUNDLE_SIZE + 16, /* else all arrays would meet in the same cache sets */
     GI_PACKET_SIZE = 16,
     GI_PACKET_COUNT = GI_BUNDLE_SIZE / GI_PACKET_SIZE,
@@ -18,9 +19,8 @@ enum {
 
 typedef struct GiRegroup {
     uint16_t order[GI_REGROUP_LIMIT]; /* a permutation */
-    /* Of every GI_BUNDLE_SIZE rays in that order, a direction their packets are aligned with, or
-     * zero. */
-    GiVec side[GI_REGROUP_LIMIT / GI_BUNDLE_SIZE];
+    /* Of every bundle of rays in that order, a direction its packets are aligned with, or zero. */
+    GiVec side[GI_REGROUP_LIMIT / GI_BUNDLE_LEAST];
     /* private */
     float a[GI_REGROUP_ROOM], b[GI_REGROUP_ROOM], x[GI_REGROUP_ROOM], y[GI_REGROUP_ROOM];
     uint16_t across[GI_REGROUP_LIMIT], along[GI_REGROUP_LIMIT], bundles[GI_REGROUP_LIMIT];

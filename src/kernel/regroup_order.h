@@ -241,7 +241,7 @@ static Turn pack(
 }
 
 static void pack_bundle(
-    GiRegroup *regroup, const Axes *axes, const uint16_t *rays, int count, int begin) {
+    GiRegroup *regroup, const Axes *axes, const uint16_t *rays, int count, int begin, GiVec *side) {
     float a[GI_BUNDLE_SIZE + 16] = {0}, b[GI_BUNDLE_SIZE + 16] = {0};
     uint16_t order[GI_BUNDLE_SIZE];
     for (int i = 0; i < count; i++) {
@@ -252,30 +252,28 @@ static void pack_bundle(
     const Turn turn = pack(regroup, a, b, count, GI_PACKET_SIZE, order);
     for (int i = 0; i < count; i++) regroup->order[begin + i] = rays[order[i]];
     const float *u = axes->u, *v = axes->v;
-    regroup->side[begin / GI_BUNDLE_SIZE] = gi_vec(turn.c * u[0] + turn.s * v[0],
-        turn.c * u[1] + turn.s * v[1], turn.c * u[2] + turn.s * v[2]);
+    *side = gi_vec(turn.c * u[0] + turn.s * v[0], turn.c * u[1] + turn.s * v[1],
+        turn.c * u[2] + turn.s * v[2]);
 }
 
-static void GI_KERNEL(regroup)(
-    GiRegroup *regroup, const float *x, const float *y, const float *z, int count, double leaves) {
+static void GI_KERNEL(regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z,
+    int count, int size, double leaves) {
     uint16_t *bundles = regroup->bundles;
     const Axes axes = axes_of(x, y, z, count);
     if (order_serves(&axes, x, y, z, count, leaves)) {
         for (int i = 0; i < count; i++) regroup->order[i] = (uint16_t)i;
-        for (int i = 0; i < count; i += GI_BUNDLE_SIZE) {
-            regroup->side[i / GI_BUNDLE_SIZE] = gi_vec(0, 0, 0);
-        }
+        for (int i = 0; i < count; i += size) regroup->side[i / size] = gi_vec(0, 0, 0);
         return;
     }
     project(&axes, x, y, z, count, regroup->a, regroup->b);
-    if (count > GI_BUNDLE_SIZE) {
+    if (count > size) {
         repeat_first(regroup->a, regroup->b, count);
-        pack(regroup, regroup->a, regroup->b, count, GI_BUNDLE_SIZE, bundles);
+        pack(regroup, regroup->a, regroup->b, count, size, bundles);
     } else {
         for (int i = 0; i < count; i++) bundles[i] = (uint16_t)i;
     }
-    for (int begin = 0; begin < count; begin += GI_BUNDLE_SIZE) {
-        int rest = count - begin < GI_BUNDLE_SIZE ? count - begin : GI_BUNDLE_SIZE;
-        pack_bundle(regroup, &axes, bundles + begin, rest, begin);
+    for (int begin = 0; begin < count; begin += size) {
+        int rest = count - begin < size ? count - begin : size;
+        pack_bundle(regroup, &axes, bundles + begin, rest, begin, &regroup->side[begin / size]);
     }
 }

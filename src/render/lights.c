@@ -106,15 +106,16 @@ void gi_lights_trace(const GiStage *stage, GiVec light) {
     GiLit *lit = &scratch->lit;
     const GiWorld *world = stage->world;
     double leaves = (double)world->leaf_count * (1 + (double)world->spread.instances.count);
-    world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count, leaves);
-    for (int begin = 0; begin < lit->count; begin += GI_BUNDLE_SIZE) {
+    const int size = world->bundle_size;
+    world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count, size, leaves);
+    for (int begin = 0; begin < lit->count; begin += size) {
         if (gi_stage_stopped(stage)) return;
         const uint16_t *order = scratch->regroup.order + begin;
-        bundle->count = lit->count - begin < GI_BUNDLE_SIZE ? lit->count - begin : GI_BUNDLE_SIZE;
+        bundle->count = lit->count - begin < size ? lit->count - begin : size;
         bundle->apex = light;
         bundle->end = 1;
         bundle->own = false;
-        bundle->side = scratch->regroup.side[begin / GI_BUNDLE_SIZE];
+        bundle->side = scratch->regroup.side[begin / size];
         world->kernel->shadows(points, lit, order, bundle);
         world->kernel->bundle_any(&world->trace, bundle);
         for (int i = 0; i < bundle->count; i++) {

@@ -5,7 +5,6 @@
 
 enum {
     PACKET_SIDE = 4, /* a packet: 4 x 4 */
-    PACKETS_ACROSS = GI_BLOCK_WIDTH / PACKET_SIDE,
     STRIDE = GI_TILE_STRIDE
 };
 
@@ -118,10 +117,11 @@ static void set_rays(const GiStage *stage, const GiTileExtent *extent, int block
     const GiView *view = gi_stage_view(stage);
     GiTileScratch *scratch = stage->scratch;
     GiBundle *bundle = &scratch->bundle;
+    const int across = gi_stage_block_width(stage) / PACKET_SIDE;
     int count = 0;
-    for (int packet = 0; packet < GI_PACKET_COUNT; packet++) {
-        int packet_x = block_x + packet % PACKETS_ACROSS * PACKET_SIDE;
-        int packet_y = block_y + packet / PACKETS_ACROSS * PACKET_SIDE;
+    for (int packet = 0; packet < world->bundle_size / GI_PACKET_SIZE; packet++) {
+        int packet_x = block_x + packet % across * PACKET_SIDE;
+        int packet_y = block_y + packet / across * PACKET_SIDE;
         int end_x = minimum(packet_x + PACKET_SIDE, extent->width);
         int end_y = minimum(packet_y + PACKET_SIDE, extent->height);
         for (int y = packet_y; y < end_y; y++) {
@@ -172,7 +172,7 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Gi
     scratch->weighted = scratch->shared = false;
     gi_tile_aim(stage, area, extent, offset_x, offset_y);
     for (int y = 0; y < extent->height; y += GI_BLOCK_HEIGHT) {
-        for (int x = 0; x < extent->width; x += GI_BLOCK_WIDTH) {
+        for (int x = 0; x < extent->width; x += gi_stage_block_width(stage)) {
             if (gi_tile_trace_block(stage, extent, x, y) == 0) return;
             gi_surface_bundle(stage);
         }
