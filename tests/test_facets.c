@@ -2,8 +2,8 @@
  * Triangles in bundles: what is certain in single precision is taken without the exact test. Here
  * are pairs of triangles with an edge in common, large or tiny, near or far, layers of them that
  * all but touch, and rays that graze edges or end about where they begin, by parts from a tenth to
- * a billionth; and rays that begin on a triangle itself. Whoever takes too much for certain
- * disagrees with the formula. */
+ * a billionth; rays that begin on a triangle itself; and rays in the planes of triangles. Whoever
+ * takes too much for certain disagrees with the formula. */
 #include "brute.h"
 #include "meshes.h"
 #include "random.h"
@@ -225,4 +225,63 @@ static void triangles_are_left(void) {
     }
 }
 
-const GiTest tests_facets[] = {TEST(triangles_are_grazed), TEST(triangles_are_left), TEST_END};
+/* ---------------------------------------------------------------- rays in planes of triangles */
+
+static GiVec grid_point(Random *random) {
+    return gi_vec(
+        random_below(random, 5) - 2, random_below(random, 5) - 2, random_below(random, 5) - 2);
+}
+
+/* Corners, apex and what rays aim at are whole numbers, so that many rays run in the planes of
+ * triangles, and the apex is a corner, or lies across from one in its own depth plane; often it is
+ * zero, where no rounding is to be allowed for. */
+static void aim_on_grid(GiBundle *bundle, Random *random) {
+    bundle->apex = random_below(random, 2) ? gi_vec(0, 0, 0) : grid_point(random);
+    bundle->side = gi_vec(0, 0, 0);
+    bundle->start = 0;
+    bundle->end = 1;
+    bundle->own = bundle->without_t = false;
+    GiVec axis = unit(random);
+    for (bundle->count = 0; bundle->count < 64;) {
+        GiVec d = grid_point(random);
+        if (random_below(random, 3) == 0) d = random_vec(random, -2, 2);
+        if (gi_dot(d, axis) < 0.7 * gi_length(d) || gi_length(d) < 0.1) continue;
+        int i = bundle->count++;
+        d = gi_scale(d, random_real(random, 0.3, 3)); /* weights are nothing but rounding then */
+        GiVec o = gi_along(bundle->apex, d, 2);
+        bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
+        bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
+        bundle->t_min[i] = 0;
+        bundle->t[i] = INFINITY;
+        bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
+    }
+}
+
+static void triangles_are_met_in_their_planes(void) {
+    static GiBundle bundle;
+    Random random = {23};
+    for (int round = 0; round < 2000; round++) {
+        Fixture fixture;
+        fixture_begin(&fixture, GLINT_DIALECT_GLINT);
+        mesh_begin(&fixture.scene);
+        uint32_t count = 1 + (uint32_t)random_below(&random, 40);
+        for (uint32_t i = 0; i < 3 * count; i++) mesh_position(&fixture.scene, grid_point(&random));
+        for (uint32_t i = 0; i < count; i++) {
+            mesh_triangle(&fixture.scene, 3 * i, 3 * i + 1, 3 * i + 2);
+        }
+        GiShapeRef ref = mesh_surface(&fixture.scene);
+        CHECK(gi_scene_place(&fixture.scene, GI_SHAPE_NONE, ref));
+        fixture_commit(&fixture, gi_kernel_at(0));
+        for (int any = 0; any < 2; any++) {
+            aim_on_grid(&bundle, &random);
+            const GiKernel *kernel;
+            for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
+                CHECK_INT(differing(&fixture, kernel, any != 0, &bundle), 0);
+            }
+        }
+        fixture_end(&fixture);
+    }
+}
+
+const GiTest tests_facets[] = {TEST(triangles_are_grazed), TEST(triangles_are_left),
+    TEST(triangles_are_met_in_their_planes), TEST_END};

@@ -11,7 +11,7 @@
  * How far apart the two are. In the tree a shape is grown by 2^-19 of its largest distance from the
  * centre; the inner one is smaller by four times that, and both allow for the apex by `margin`.
  * What is computed here errs by roundings e = 2^-24: a vector c along u, v, w by six of |c|, as the
- * axes are rounded too; a and b by three each. So a component of (a, b, 1) x c errs by less than 12
+ * axes are rounded too; a and b by four each. So a component of (a, b, 1) x c errs by less than 12
  * e |c| (1 + |a| + |b|), and the distance of line and centre, which is the length of that product
  * over the length of (a, b, 1), by less than 36 e |c|: the slack of spheres is 64 e |c|. A
  * component of (a, b, 1) along an axis of the tree errs by less than 20 e, as |a|, |b| < 2.3; so a

@@ -231,7 +231,7 @@ static inline void tile_places(Tile *tile) {
     tile->places[GI_SHAPE_INSTANCE] = (Places){(const char *)shapes->instances, sizeof(GiInstance)};
 }
 
-/* As prefetch_shape, without asking which kind it is: that cannot be foretold. */
+/* Without asking which kind it is: that cannot be foretold. */
 static inline void prefetch_small(const Tile *tile, GiShapeRef ref) {
     const Places *places = &tile->places[gi_shape_kind(ref)];
     prefetch(places->first + places->size * gi_shape_index(ref));

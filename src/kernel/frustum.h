@@ -29,8 +29,8 @@ typedef struct Frustum {
     SeenFrom seen; /* triangles, from the apex */
 } Frustum;
 
-/* One shape to be tested against some rays of one packet; known: what is certain of them has been
- * taken already. */
+/* One shape to be tested against some rays of one packet; known, which matters to solids alone:
+ * what is certain of them has been taken already. */
 typedef struct Test {
     GiShapeRef shape;
     uint32_t packet, rays;

@@ -216,18 +216,6 @@ static inline void prefetch_child(const GiTree *tree, const GiShapes *shapes, ui
     prefetch(from + 192);
 }
 
-static inline void prefetch_shape(const GiShapes *shapes, GiShapeRef ref) {
-    uint32_t i = gi_shape_index(ref);
-    switch (gi_shape_kind(ref)) {
-    case GI_SHAPE_SPHERE: prefetch(&shapes->spheres[i]); break;
-    case GI_SHAPE_BOX: prefetch(&shapes->boxes[i]); break;
-    case GI_SHAPE_CONE: prefetch(&shapes->cones[i]); break;
-    case GI_SHAPE_PLACED: prefetch(&shapes->placements[i]); break;
-    case GI_SHAPE_INSTANCE: prefetch(&shapes->instances[i]); break;
-    default: break;
-    }
-}
-
 /* Pushes the children in bits so that the nearest is on top. */
 static inline int push_children(const GiTree *tree, const GiShapes *shapes, StackEntry *stack,
     int count, const uint32_t child[8], unsigned bits, const float enter[8]) {

@@ -154,7 +154,7 @@ static inline Verdict small_cone(const Tile *tile, const GiCone *cone, int packe
         P inner = p_less_fused(farthest, farthest, square * less);
         P gap = p_max(between - beside, zero), more_gap = p_max(between + beside, zero);
         unsigned in = p_less_equal(zero, outer) & p_less_equal(gap * gap * less, outer * zz);
-        maybe |= (in | ~regular) << j;
+        maybe |= (in | (~regular & ((1u << GI_WIDEST) - 1))) << j;
         sure |= (regular & p_less_equal(zero, inner) &
                     p_less_equal(more_gap * more_gap * more, inner * zz))
                 << j;

@@ -127,7 +127,8 @@ static inline unsigned tile_triangles(const Frustum *frustum, const GiTriangles 
         }
         /* What reaches behind the apex, or is far off to the side, is not in the plane. */
         unsigned all = (1u << GI_FLOATS) - 1;
-        unsigned whole = f_less_equal(f_of(4) * error, nearest) & f_less_equal(f_of(0), nearest) &
+        unsigned whole = f_less_equal(f_of(4) * error, nearest) &
+                         f_less_equal(f_of(0x1p-100f), nearest) & /* so that quotients are finite */
                          f_less_equal(most, f_of(4096));
         unsigned in = f_less_equal(a0, f_of(frustum->a1)) & f_less_equal(f_of(frustum->a0), a1) &
                       f_less_equal(b0, f_of(frustum->b1)) & f_less_equal(f_of(frustum->b0), b1) &

@@ -3,8 +3,8 @@
  * events go to tree.c. Nothing of the document is kept but the open elements and what is named.
  *
  * Of a large file one thread scans a chunk while this one builds from the chunk before it. The
- * source is read, the window moved and the user called back by this thread alone, before that or
- * after it; meanwhile both only look at the window's bytes. */
+ * source is read and the window moved by this thread alone, before that or after it; meanwhile both
+ * only look at the window's bytes. The user is called back by this thread, too. */
 #include "reader/reader.h"
 
 #include "base/digest.h"

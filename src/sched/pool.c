@@ -90,7 +90,7 @@ GlintStatus gi_pool_create(GiMemory *memory, int thread_count, GiPool **result) 
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->wake, NULL);
     pthread_cond_init(&pool->done, NULL);
-    /* A kernel takes up to two fifths of a megabyte (kernel/inside.h); some C libraries give less.
+    /* A kernel takes up to half a megabyte (kernel/inside.h); some C libraries give less.
      */
     pthread_attr_t attributes;
     size_t stack_size = 0;

@@ -232,7 +232,8 @@ static inline GI_HIT(Corner)
  * areas of the three triangles that this point and the edges make, up to a common factor. */
 typedef struct GI_HIT(Weights) {
     R u, v, w;
-    R depth; /* the weighted sum of the corners' depths */
+    R depth;  /* the weighted sum of the corners' depths */
+    M around; /* the ray is within the rectangle of the corners' places */
 } GI_HIT(Weights);
 
 /* Why no ray slips between triangles that share an edge or a corner: in the plane across the ray a
@@ -243,15 +244,23 @@ typedef struct GI_HIT(Weights) {
  * for both triangles at the edge.
  *
  * The depth is a mean of the corners' depths, so a meeting never lies outside of the triangle's own
- * range of depths, however small the angle. */
+ * range of depths, however small the angle. And of a triangle seen edge-on, whose weights are
+ * nothing but rounding for rays in its plane, only those rays meet it that pass between its
+ * corners: a point inside of a triangle is inside of the rectangle round its corners too, and
+ * comparisons do not round. */
 static inline GI_HIT(Weights) GI_HIT(weights_at)(R corners[3][3], const GI_HIT(Ray) * ray) {
     R dx = R_MAX(ray->dx, -ray->dx), dy = R_MAX(ray->dy, -ray->dy), dz = R_MAX(ray->dz, -ray->dz);
     M x_major = R_LESS_EQUAL(dy, dx) & R_LESS_EQUAL(dz, dx), y_major = R_LESS_EQUAL(dz, dy);
     GI_HIT(Corner) a = GI_HIT(corner)(corners[0], ray, x_major, y_major);
     GI_HIT(Corner) b = GI_HIT(corner)(corners[1], ray, x_major, y_major);
     GI_HIT(Corner) c = GI_HIT(corner)(corners[2], ray, x_major, y_major);
-    R u = b.x * c.y - b.y * c.x, v = c.x * a.y - c.y * a.x, w = a.x * b.y - a.y * b.x;
-    return (GI_HIT(Weights)){u, v, w, u * a.depth + v * b.depth + w * c.depth};
+    R u = b.x * c.y - b.y * c.x, v = c.x * a.y - c.y * a.x, w = a.x * b.y - a.y * b.x,
+      zero = R_OF(0);
+    M around = R_LESS_EQUAL(R_MIN(a.x, R_MIN(b.x, c.x)), zero) &
+               R_LESS_EQUAL(zero, R_MAX(a.x, R_MAX(b.x, c.x))) &
+               R_LESS_EQUAL(R_MIN(a.y, R_MIN(b.y, c.y)), zero) &
+               R_LESS_EQUAL(zero, R_MAX(a.y, R_MAX(b.y, c.y)));
+    return (GI_HIT(Weights)){u, v, w, u * a.depth + v * b.depth + w * c.depth, around};
 }
 
 static inline void GI_HIT(corners)(
@@ -278,7 +287,7 @@ static inline M GI_HIT(triangle_at)(
     /* A triangle seen edge-on has no weights at all, and its t is no number; its neighbours have
      * the edge. */
     *t = at.depth / (at.u + at.v + at.w) * ray->inverse_square;
-    return (R_LESS_EQUAL(zero, least) | R_LESS_EQUAL(most, zero)) & R_LESS(t_min, *t) &
+    return (R_LESS_EQUAL(zero, least) | R_LESS_EQUAL(most, zero)) & at.around & R_LESS(t_min, *t) &
            R_LESS(*t, t_max);
 }
 
