@@ -21,7 +21,8 @@
  *   - A null scene, or an id that the scene did not give out, is a mistake of the program: it is
  *     refused with GLINT_ERROR_ARGUMENT where that costs nothing, and asserted where it does not.
  *   - The library never prints, never exits, reads no environment variable and keeps no global
- *     state that a caller could notice. Different scenes may be used from different threads.
+ *     state that a caller could notice. Different scenes may be used from different threads, which
+ *     take part in the work and need a megabyte of stack, as its own threads have.
  *   - Coordinates are right-handed. Colours are linear RGB. Rows of pixels run top to bottom.
  *   - The picture does not depend on the number of threads, the instruction set or the compiler,
  *     to the last bit.
