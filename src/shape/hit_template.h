@@ -256,10 +256,10 @@ static inline GI_HIT(Weights) GI_HIT(weights_at)(R corners[3][3], const GI_HIT(R
     GI_HIT(Corner) c = GI_HIT(corner)(corners[2], ray, x_major, y_major);
     R u = b.x * c.y - b.y * c.x, v = c.x * a.y - c.y * a.x, w = a.x * b.y - a.y * b.x,
       zero = R_OF(0);
-    M around = R_LESS_EQUAL(R_MIN(a.x, R_MIN(b.x, c.x)), zero) &
-               R_LESS_EQUAL(zero, R_MAX(a.x, R_MAX(b.x, c.x))) &
-               R_LESS_EQUAL(R_MIN(a.y, R_MIN(b.y, c.y)), zero) &
-               R_LESS_EQUAL(zero, R_MAX(a.y, R_MAX(b.y, c.y)));
+    R x0 = R_MIN(a.x, R_MIN(b.x, c.x)), x1 = R_MAX(a.x, R_MAX(b.x, c.x));
+    R y0 = R_MIN(a.y, R_MIN(b.y, c.y)), y1 = R_MAX(a.y, R_MAX(b.y, c.y));
+    M around = R_LESS_EQUAL(x0, zero) & R_LESS_EQUAL(zero, x1) & R_LESS_EQUAL(y0, zero) &
+               R_LESS_EQUAL(zero, y1);
     return (GI_HIT(Weights)){u, v, w, u * a.depth + v * b.depth + w * c.depth, around};
 }
 
