@@ -77,8 +77,6 @@ static inline GiVec gi_bundle_direction(const GiBundle *bundle, int i) {
     return gi_vec(bundle->dx[i], bundle->dy[i], bundle->dz[i]);
 }
 
-#define GI_NO_KEY UINT32_MAX
-
 typedef struct GiKernel {
     const char *name;
     bool (*closest)(const GiTrace *trace, const GiTraceRay *ray, GiTraceHit *hit);
@@ -93,8 +91,8 @@ typedef struct GiKernel {
      * coordinates a and b. */
     void (*view)(const GiView *view, const double *a, const double *b, GiBundle *bundle);
     /* Sorts the places 0 to count - 1, at most GI_BUNDLE_SIZE, by their keys: those of equal keys
-     * side by side, in order, up to ends[0], ends[1] and so on. Places with the key GI_NO_KEY are
-     * left out. Returns how many keys there are. `keys` and `places` have GI_BUNDLE_ROOM. */
+     * side by side, in order, up to ends[0], ends[1] and so on. Returns how many keys there are.
+     * `keys` and `places` have GI_BUNDLE_ROOM. */
     int (*group)(const uint32_t *keys, int count, uint32_t *places, int *ends);
     /* Appends the points where rays of the bundle, named by their indices, met spheres, boxes,
      * cones or triangles (all of one kind, not placed, not an instance's). `own`: what shadow rays

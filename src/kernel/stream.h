@@ -50,8 +50,7 @@ static int GI_KERNEL(group)(const uint32_t *keys, int count, uint32_t *places, i
     for (int i = 0; i < count; i++) last[keys[i] % SLOTS] = (uint16_t)i;
     for (int i = 0; i < packets; i++) {
         int left = count - 16 * i;
-        unsigned here = left < 16 ? (1u << left) - 1 : 0xffff;
-        open[i] = (uint16_t)(here & ~sixteen_equal(GI_NO_KEY, keys + 16 * i));
+        open[i] = (uint16_t)(left < 16 ? (1u << left) - 1 : 0xffff);
     }
     for (int first = 0; first < packets; first++) {
         while (open[first] != 0) {

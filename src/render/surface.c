@@ -400,8 +400,10 @@ static void meet_dark(
 }
 
 /* By what rays are sorted: the shader of what they met, and its kind where the kernels make points
- * of such; GI_SHAPE_PLACED stands for all the others. */
+ * of such; GI_SHAPE_PLACED stands for all the others. Or that they met nothing, or a light. */
 enum { KEY_KIND_BITS = 3 };
+#define KEY_NOTHING UINT32_MAX
+#define KEY_LIGHT   (UINT32_MAX - 1)
 
 static inline uint32_t key_of(const GiWorld *world, GiShapeRef shape, uint32_t instance) {
     GiShapeKind kind = gi_shape_kind(shape);
@@ -424,9 +426,54 @@ static MeshKey mesh_key(const GiWorld *world, GiShapeRef triangle) {
         mesh->triangle_count, key_of(world, triangle, GI_SHAPE_NONE)};
 }
 
+/* The keys of the bundle's rays. Neighbours mostly met the same. */
+static void find_keys(const GiWorld *world, const GiBundle *bundle, uint32_t *keys) {
+    uint32_t key = KEY_NOTHING, shape = GI_SHAPE_NONE, instance = GI_SHAPE_NONE;
+    MeshKey mesh = {0, 0, 0};
+    for (int i = 0; i < bundle->count; i++) {
+        if (bundle->shape[i] != shape || bundle->instance[i] != instance) {
+            shape = bundle->shape[i], instance = bundle->instance[i];
+            GiShapeRef ref = {shape};
+            if (shape == GI_SHAPE_NONE) {
+                key = KEY_NOTHING;
+            } else if (gi_shape_kind(ref) == GI_SHAPE_RECTANGLE) {
+                key = KEY_LIGHT;
+            } else if (gi_shape_kind(ref) != GI_SHAPE_TRIANGLE || instance != GI_SHAPE_NONE) {
+                key = key_of(world, ref, instance);
+            } else {
+                if (shape - mesh.first >= mesh.count) mesh = mesh_key(world, ref);
+                key = mesh.key;
+            }
+        }
+        keys[i] = key;
+    }
+}
+
+/* Rays that met nothing. */
+static void meet_nothing(const GiStage *stage, const uint32_t *rays, int count) {
+    const GiBundle *bundle = &stage->scratch->bundle;
+    bool plain = stage->world->scene->environment.face == 0;
+    GiVec light = background(stage, NULL, gi_bundle_direction(bundle, (int)rays[0]));
+    for (int i = 0; i < count; i++) {
+        if (!plain) light = background(stage, NULL, gi_bundle_direction(bundle, (int)rays[i]));
+        show_first(stage, bundle->pixel[rays[i]], light);
+    }
+}
+
 /* The rays of one key. */
 static void meet_group(const GiStage *stage, uint32_t key, const uint32_t *rays, int count) {
     const GiTileScratch *scratch = stage->scratch;
+    if (key == KEY_NOTHING) {
+        meet_nothing(stage, rays, count);
+        return;
+    }
+    if (key == KEY_LIGHT) {
+        for (int i = 0; i < count; i++) {
+            const Met met = met_of_bundle(&scratch->bundle, (int)rays[i]);
+            show_first(stage, met.pixel, rectangle_emission(stage, NULL, &met));
+        }
+        return;
+    }
     uint32_t index = key >> KEY_KIND_BITS, kind = key & ((1 << KEY_KIND_BITS) - 1);
     const GiShader *shader = &stage->world->scene->shaders.data[index];
     bool plain = is_plain(stage->world, shader);
@@ -455,29 +502,7 @@ void gi_surface_bundle(const GiStage *stage) {
     uint32_t keys[GI_BUNDLE_ROOM], rays[GI_BUNDLE_ROOM];
     int ends[GI_BUNDLE_SIZE];
     if (gi_stage_records(stage)) gi_record_camera(stage);
-    MeshKey last = {0, 0, 0};
-    for (int i = 0; i < bundle->count; i++) {
-        GiShapeRef shape = {bundle->shape[i]};
-        if (i > 0 && keys[i - 1] != GI_NO_KEY && shape.bits == bundle->shape[i - 1] &&
-            bundle->instance[i] == bundle->instance[i - 1]) {
-            keys[i] = keys[i - 1]; /* as mostly */
-            continue;
-        }
-        keys[i] = GI_NO_KEY;
-        if (shape.bits == GI_SHAPE_NONE) {
-            GiVec light = background(stage, NULL, gi_bundle_direction(bundle, i));
-            show_first(stage, bundle->pixel[i], light);
-        } else if (gi_shape_kind(shape) == GI_SHAPE_RECTANGLE) {
-            Met met = met_of_bundle(bundle, i);
-            show_first(stage, met.pixel, rectangle_emission(stage, NULL, &met));
-        } else if (gi_shape_kind(shape) != GI_SHAPE_TRIANGLE ||
-                   bundle->instance[i] != GI_SHAPE_NONE) {
-            keys[i] = key_of(world, shape, bundle->instance[i]);
-        } else {
-            if (shape.bits - last.first >= last.count) last = mesh_key(world, shape);
-            keys[i] = last.key;
-        }
-    }
+    find_keys(world, bundle, keys);
     int count = world->kernel->group(keys, bundle->count, rays, ends);
     for (int k = 0, begin = 0; k < count; begin = ends[k++]) {
         meet_group(stage, keys[rays[begin]], rays + begin, ends[k] - begin);
