@@ -88,7 +88,7 @@ static void load_part(GiTileScratch *scratch, const RaySet *set, const RayPart *
         lit->t_min[i] = ray->t_min;
         lit->arrives[i] = 0;
         lit->x[i] = (float)toward.x, lit->y[i] = (float)toward.y, lit->z[i] = (float)toward.z;
-        points->skip[i] = ray->skip;
+        lit->skip[i] = ray->skip;
         points->skip_instance[i] = ray->skip_instance;
     }
 }

@@ -10,6 +10,8 @@
 /* What a camera ray met: the point beside the surface, and the normal toward the eye. */
 typedef struct Found {
     GiVec point, normal;
+    GiShapeRef shape;
+    uint32_t instance;
     uint32_t x, y;
 } Found;
 
@@ -53,7 +55,19 @@ static void add_camera_ray(Maker *maker, uint32_t x, uint32_t y) {
         gi_shape_point(&world->shapes, hit.shape, hit.instance, origin, direction, hit.t, true);
     GiVec normal = gi_dot(at.geometric, direction) > 0 ? gi_negate(at.geometric) : at.geometric;
     maker->found[maker->found_count++] =
-        (Found){rounded(gi_along(at.point, normal, maker->offset)), normal, x, y};
+        (Found){rounded(gi_along(at.point, normal, maker->offset)), normal, hit.shape,
+            hit.instance, x, y};
+}
+
+/* What the renderer knows of a shadow ray: the shape it begins beside, and leaves. */
+static void note_own(GiTraceRay *ray, const Found *found) {
+    GiShapeKind kind = gi_shape_kind(found->shape);
+    bool solid = kind <= GI_SHAPE_CONE, triangle = kind == GI_SHAPE_TRIANGLE;
+    double along = gi_dot(ray->direction, found->normal);
+    if (found->instance != GI_SHAPE_NONE || !(solid || triangle)) return;
+    if (solid && !(along > 0x1p-5 * gi_length(ray->direction))) return;
+    ray->skip = found->shape.bits;
+    ray->skip_instance = triangle ? GI_LEFT : GI_SHAPE_NONE;
 }
 
 static void add_shadow_rays(Maker *maker, GiVec light) {
@@ -62,7 +76,9 @@ static void add_shadow_rays(Maker *maker, GiVec light) {
     for (int i = 0; i < maker->found_count; i++) {
         const Found *found = &maker->found[i];
         GiVec direction = gi_sub(light, found->point);
-        if (gi_dot(direction, found->normal) > 0) add_ray(set, found->point, direction, 0, 1);
+        if (!(gi_dot(direction, found->normal) > 0)) continue;
+        add_ray(set, found->point, direction, 0, 1);
+        note_own(&set->rays[set->count - 1], found);
     }
     part.count = (int)(set->count - part.first);
     if (part.count > 0) set->parts[set->part_count++] = part;
