@@ -221,34 +221,38 @@ static inline void rays_place(Tile *tile, bool any, int i, GiVec u, GiVec v, M *
     }
 }
 
+/* Rectangles and depths of the GI_FLOATS packets from k on, whose rays have their places. */
+static inline void packets_enclose(Tile *tile, int k) {
+    Packets *packets = &tile->packets;
+    const F one = f_of(1), wider = f_of(GI_WIDER);
+    int first = k * GI_PACKET_SIZE;
+    F a0 = f_ends(tile->a + first, false), a1 = f_ends(tile->a + first, true);
+    F b0 = f_ends(tile->b + first, false), b1 = f_ends(tile->b + first, true);
+    f_store(packets->a0 + k, a0 - wider * (one + f_size(a0)));
+    f_store(packets->a1 + k, a1 + wider * (one + f_size(a1)));
+    f_store(packets->b0 + k, b0 - wider * (one + f_size(b0)));
+    f_store(packets->b1 + k, b1 + wider * (one + f_size(b1)));
+    f_store(packets->far + k, f_ends(tile->far + first, true));
+}
+
 /* Rectangle and depths of the packets. False when a ray is too oblique to the axis. */
 static inline bool tile_packets(Tile *tile, bool any, GiVec u, GiVec v) {
     GiBundle *bundle = tile->bundle;
-    Packets *packets = &tile->packets;
     M oblique = M_OF(false);
     R deepest = R_OF(0);
+    int count = (bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
+    for (int k = 0; k < count; k += GI_FLOATS) {
+        int end = k + GI_FLOATS < count ? k + GI_FLOATS : count;
+        for (int i = k * GI_PACKET_SIZE; i < end * GI_PACKET_SIZE; i += GI_WIDEST) {
+            rays_place(tile, any, i, u, v, &oblique, &deepest);
+        }
+        packets_enclose(tile, k);
+    }
     for (int k = 0; k < GI_PACKET_COUNT; k++) {
-        if (k * GI_PACKET_SIZE >= bundle->count) {
-            packet_clear(packets, k);
-            tile->alive[k] = tile->open[k] = 0;
-            continue;
-        }
-        int first = k * GI_PACKET_SIZE;
-        for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
-            rays_place(tile, any, first + j, u, v, &oblique, &deepest);
-        }
-        packets->a0[k] = f_lowest(tile->a + first, GI_PACKET_SIZE);
-        packets->a1[k] = f_highest(tile->a + first, GI_PACKET_SIZE);
-        packets->b0[k] = f_lowest(tile->b + first, GI_PACKET_SIZE);
-        packets->b1[k] = f_highest(tile->b + first, GI_PACKET_SIZE);
-        packets->far[k] = f_highest(tile->far + first, GI_PACKET_SIZE);
-        packets->a0[k] -= GI_WIDER * (1 + fabsf(packets->a0[k]));
-        packets->a1[k] += GI_WIDER * (1 + fabsf(packets->a1[k]));
-        packets->b0[k] -= GI_WIDER * (1 + fabsf(packets->b0[k]));
-        packets->b1[k] += GI_WIDER * (1 + fabsf(packets->b1[k]));
-        tile->alive[k] = 0xffff;
+        tile->alive[k] = k < count ? 0xffff : 0;
         tile->open[k] = 0;
     }
+    for (int k = count; k < GI_PACKET_COUNT; k++) packet_clear(&tile->packets, k);
     int rest = bundle->count % GI_PACKET_SIZE;
     if (rest != 0) tile->alive[bundle->count / GI_PACKET_SIZE] = (1u << rest) - 1;
     double depths[GI_DOUBLES], most = 0;
@@ -273,13 +277,10 @@ static inline void frustum_planes(Frustum *frustum) {
 
 static inline void tile_refresh_far(Tile *tile) {
     Groups *groups = &tile->groups;
-    for (int g = 0; g < GROUP_COUNT; g++) {
-        groups->far[g] = f_highest(tile->packets.far + g * GROUP_SIZE, GROUP_SIZE);
+    for (int g = 0; g < GROUP_COUNT; g += GI_FLOATS) {
+        f_store(groups->far + g, f_ends(tile->packets.far + g * GROUP_SIZE, true));
     }
-    tile->frustum.far = groups->far[0];
-    for (int g = 1; g < GROUP_COUNT; g++) {
-        if (tile->frustum.far < groups->far[g]) tile->frustum.far = groups->far[g];
-    }
+    tile->frustum.far = f_highest(groups->far, GROUP_COUNT);
 }
 
 /* The groups and the frustum closely round the packets that have rays left. */
@@ -287,18 +288,16 @@ static inline void tile_enclose(Tile *tile) {
     const Packets *packets = &tile->packets;
     Groups *groups = &tile->groups;
     Frustum *frustum = &tile->frustum;
-    frustum->a0 = frustum->b0 = INFINITY;
-    frustum->a1 = frustum->b1 = -INFINITY;
-    for (int g = 0; g < GROUP_COUNT; g++) {
-        groups->a0[g] = f_lowest(packets->a0 + g * GROUP_SIZE, GROUP_SIZE);
-        groups->a1[g] = f_highest(packets->a1 + g * GROUP_SIZE, GROUP_SIZE);
-        groups->b0[g] = f_lowest(packets->b0 + g * GROUP_SIZE, GROUP_SIZE);
-        groups->b1[g] = f_highest(packets->b1 + g * GROUP_SIZE, GROUP_SIZE);
-        if (frustum->a0 > groups->a0[g]) frustum->a0 = groups->a0[g];
-        if (frustum->a1 < groups->a1[g]) frustum->a1 = groups->a1[g];
-        if (frustum->b0 > groups->b0[g]) frustum->b0 = groups->b0[g];
-        if (frustum->b1 < groups->b1[g]) frustum->b1 = groups->b1[g];
+    for (int g = 0; g < GROUP_COUNT; g += GI_FLOATS) {
+        f_store(groups->a0 + g, f_ends(packets->a0 + g * GROUP_SIZE, false));
+        f_store(groups->a1 + g, f_ends(packets->a1 + g * GROUP_SIZE, true));
+        f_store(groups->b0 + g, f_ends(packets->b0 + g * GROUP_SIZE, false));
+        f_store(groups->b1 + g, f_ends(packets->b1 + g * GROUP_SIZE, true));
     }
+    frustum->a0 = f_lowest(groups->a0, GROUP_COUNT);
+    frustum->a1 = f_highest(groups->a1, GROUP_COUNT);
+    frustum->b0 = f_lowest(groups->b0, GROUP_COUNT);
+    frustum->b1 = f_highest(groups->b1, GROUP_COUNT);
     float a = fabsf(frustum->a0), b = fabsf(frustum->b0);
     a = a > fabsf(frustum->a1) ? a : fabsf(frustum->a1);
     b = b > fabsf(frustum->b1) ? b : fabsf(frustum->b1);
