@@ -21,6 +21,7 @@ static inline GiFour gi_four_max(GiFour a, GiFour b) { return _mm_max_ps(a, b); 
 static inline GiFour gi_four_add(GiFour a, GiFour b) { return _mm_add_ps(a, b); }
 static inline GiFour gi_four_sub(GiFour a, GiFour b) { return _mm_sub_ps(a, b); }
 static inline GiFour gi_four_multiply(GiFour a, GiFour b) { return _mm_mul_ps(a, b); }
+static inline GiFour gi_four_divide(GiFour a, GiFour b) { return _mm_div_ps(a, b); }
 /* Toward zero. */
 static inline void gi_four_to_int(GiFour a, int32_t to[4]) {
     _mm_storeu_si128((__m128i *)(void *)to, _mm_cvttps_epi32(a));
@@ -76,6 +77,7 @@ static inline GiFour gi_four_max(GiFour a, GiFour b) {
 static inline GiFour gi_four_add(GiFour a, GiFour b) { GI_FOUR_EACH(a.v[i] + b.v[i]); }
 static inline GiFour gi_four_sub(GiFour a, GiFour b) { GI_FOUR_EACH(a.v[i] - b.v[i]); }
 static inline GiFour gi_four_multiply(GiFour a, GiFour b) { GI_FOUR_EACH(a.v[i] * b.v[i]); }
+static inline GiFour gi_four_divide(GiFour a, GiFour b) { GI_FOUR_EACH(a.v[i] / b.v[i]); }
 static inline void gi_four_to_int(GiFour a, int32_t to[4]) {
     for (int i = 0; i < 3; i++) to[i] = (int32_t)a.v[i];
     to[3] = 0; /* the lane to spare may hold anything */
