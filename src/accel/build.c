@@ -27,6 +27,7 @@ typedef struct Build {
     _Atomic size_t done; /* items in finished leaves */
     _Atomic bool stop;
     size_t count;
+    const GiExtent *extent; /* of all items */
     const GlintMonitor *monitor;
 } Build;
 
@@ -97,7 +98,9 @@ static bool split_clusters(
 static bool split_to_buckets(Build *build, GiClusters *clusters, const GiRange *range) {
     GiRange stack[STACK_SIZE], sides[2];
     int height = 0;
-    if (!gi_clusters_make(clusters, build->items, range)) return false;
+    bool all = range->end - range->begin == build->count;
+    GiBounds centers = all ? build->extent->centers : gi_centers_of(build->items + range->begin, range->end - range->begin);
+    if (!gi_clusters_make(clusters, build->items, range, &centers)) return false;
     GiRange part = {range->node, 0, (uint32_t)clusters->cluster_count, range->depth};
     for (;;) {
         if (split_clusters(build, clusters, &part, sides)) {
@@ -186,9 +189,7 @@ static GlintStatus build_nodes(GiMemory *memory, GiPool *pool, Build *build) {
         if (build->clusters == NULL) return GLINT_ERROR_MEMORY;
     }
     const GiRange all = {.end = (uint32_t)build->count};
-    const GiBounds bounds = gi_bounds_of(build->items, build->count);
-    set_bounds(&build->nodes[0], &bounds);
-    atomic_init(&build->node_count, 1);
+    set_bounds(&build->nodes[0], &build->extent->bounds);
     GlintStatus status = gi_tasks_run(pool, memory, &all, sizeof all, run_task, build);
     gi_memory_free_lines(memory, build->clusters, workers, sizeof *build->clusters);
     if (status == GLINT_OK && atomic_load(&build->stop)) status = GLINT_CANCELLED;
@@ -196,11 +197,16 @@ static GlintStatus build_nodes(GiMemory *memory, GiPool *pool, Build *build) {
 }
 
 GlintStatus gi_build(GiMemory *memory, GiPool *pool, GiBuildItem *items, size_t count,
-    const GlintMonitor *monitor, GiBuildTree *tree) {
+    const GiExtent *extent, const GlintMonitor *monitor, GiBuildTree *tree) {
     tree->node_capacity = 2 * count;
     tree->nodes = gi_memory_allocate(memory, tree->node_capacity * sizeof *tree->nodes);
     if (tree->nodes == NULL) return GLINT_ERROR_MEMORY;
-    Build build = {.items = items, .nodes = tree->nodes, .count = count, .monitor = monitor};
+    Build build = {.items = items,
+        .nodes = tree->nodes,
+        .node_count = 1,
+        .count = count,
+        .extent = extent,
+        .monitor = monitor};
     GlintStatus status = build_nodes(memory, pool, &build);
     tree->node_count = atomic_load(&build.node_count);
     /* Leaves hold seven items, but might have held one each. */
@@ -210,6 +216,7 @@ GlintStatus gi_build(GiMemory *memory, GiPool *pool, GiBuildItem *items, size_t 
         tree->nodes = nodes;
         tree->node_capacity = tree->node_count;
     }
+    if (status != GLINT_OK) gi_build_free(memory, tree);
     return status;
 }
 

@@ -89,11 +89,10 @@ static inline void add_item(GiClusters *clusters, const Grid *grid, GiBuildItem 
 }
 
 /* From four places by turns, as items are put into bins (split.c). */
-bool gi_clusters_make(GiClusters *clusters, GiBuildItem *items, const GiRange *range) {
+bool gi_clusters_make(GiClusters *clusters, GiBuildItem *items, const GiRange *range, const GiBounds *centers) {
     size_t count = range->end - range->begin, quarter = count / 4;
     items += range->begin;
-    GiBounds centers = gi_centers_of(items, count);
-    Grid grid = choose_grid(&centers, count);
+    Grid grid = choose_grid(centers, count);
     if (grid.cell_count == 1) return false;
     memset(clusters->cells, 0, grid.cell_count * sizeof *clusters->cells);
     clusters->cluster_count = clusters->bucket_count = 0;

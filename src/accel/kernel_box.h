@@ -26,16 +26,13 @@ typedef struct GiKernelBox {
     float low[3], high[3];
 } GiKernelBox;
 
-/* A shape's box in kernel space, grown by the error bound (layout.h). What has no finite box begins
- * with not-a-number. */
-static inline GiKernelBox gi_kernel_box(
-    const GiShapes *shapes, GiShapeRef ref, GiVec center, double scale) {
-    GiBox box = gi_shape_bounds(shapes, ref, GI_SHAPE_NONE);
-    double growth = GI_TREE_GROWTH * gi_box_reach(&box, center) + GI_TREE_GROWTH_LEAST / scale;
+/* A shape's finite box in kernel space, grown by the error bound (layout.h). */
+static inline GiKernelBox gi_kernel_box(const GiBox *box, GiVec center, double scale) {
+    double growth = GI_TREE_GROWTH * gi_box_reach(box, center) + GI_TREE_GROWTH_LEAST / scale;
     const GiVec reach = {growth, growth, growth};
-    GiVec low = gi_sub(gi_sub(box.low, center), reach);
-    GiVec high = gi_add(gi_sub(box.high, center), reach);
-    return (GiKernelBox){{gi_box_is_finite(&box) ? (float)(low.x * scale) : NAN,
-                             (float)(low.y * scale), (float)(low.z * scale)},
+    GiVec low = gi_sub(gi_sub(box->low, center), reach);
+    GiVec high = gi_add(gi_sub(box->high, center), reach);
+    return (GiKernelBox){
+        {(float)(low.x * scale), (float)(low.y * scale), (float)(low.z * scale)},
         {(float)(high.x * scale), (float)(high.y * scale), (float)(high.z * scale)}};
 }

@@ -4,26 +4,6 @@
 #pragma once
 
 #include "accel/build.h"
-#include "math/four.h"
-
-/* A box; the fourth lane holds nothing of use. */
-typedef struct GiBounds {
-    GiFour low, high;
-} GiBounds;
-
-static inline GiBounds gi_bounds_empty(void) {
-    return (GiBounds){gi_four(INFINITY), gi_four(-INFINITY)};
-}
-
-static inline void gi_bounds_grow(GiBounds *bounds, GiFour low, GiFour high) {
-    bounds->low = gi_four_min(bounds->low, low);
-    bounds->high = gi_four_max(bounds->high, high);
-}
-
-/* Twice the centre; the factor does not matter to the bins. */
-static inline GiFour gi_build_center(const GiBuildItem *item) {
-    return gi_four_add(gi_four_load(item->low), gi_four_load(item->high));
-}
 
 /* The box round items, and the one round their centres. count > 0. */
 GiBounds gi_bounds_of(const GiBuildItem *items, size_t count);

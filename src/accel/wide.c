@@ -184,8 +184,8 @@ static void fill_sphere_blocks(void *context, size_t begin, size_t end, int work
 static GiKernelBox item_box(const Layout *layout, const GiBuildNode *leaf, uint32_t i) {
     GiKernelBox box;
     if (layout->items == NULL) {
-        return gi_kernel_box(
-            layout->shapes, item_ref(layout, leaf, i), layout->center, layout->scale);
+        GiBox bounds = gi_shape_bounds(layout->shapes, item_ref(layout, leaf, i), GI_SHAPE_NONE);
+        return gi_kernel_box(&bounds, layout->center, layout->scale);
     }
     const GiBuildItem *item = &layout->items[leaf->first + i];
     memcpy(box.low, item->low, sizeof box.low);
