@@ -6,24 +6,7 @@
 
 #include <string.h>
 
-/* One thing to be put into the tree: its box, and in the fourth lanes its id (bits of a uint32_t)
- * and nothing. */
-typedef struct GiBuildItem {
-    float low[4], high[4];
-} GiBuildItem;
-
-static inline uint32_t gi_build_id(const GiBuildItem *item) {
-    uint32_t id;
-    memcpy(&id, &item->low[3], sizeof id);
-    return id;
-}
-
-static inline void gi_build_set_id(GiBuildItem *item, uint32_t id) {
-    memcpy(&item->low[3], &id, sizeof id);
-    item->high[3] = NAN;
-}
-
-/* A box; the fourth lane holds nothing of use. */
+/* A box; the fourth lanes hold nothing of use. */
 typedef struct GiBounds {
     GiFour low, high;
 } GiBounds;
@@ -37,18 +20,46 @@ static inline void gi_bounds_grow(GiBounds *bounds, GiFour low, GiFour high) {
     bounds->high = gi_four_max(bounds->high, high);
 }
 
-/* Twice the centre; the factor does not matter to the bins. */
-static inline GiFour gi_build_center(const GiBuildItem *item) {
-    return gi_four_add(gi_four_load(item->low), gi_four_load(item->high));
+/* Twice the centre; the factor does not matter to the builder. */
+static inline GiFour gi_bounds_center(const GiBounds *bounds) {
+    return gi_four_add(bounds->low, bounds->high);
 }
 
-/* The box round items, and the one round their centres. */
+/* The box round many boxes, and the one round their centres. */
 typedef struct GiExtent {
     GiBounds bounds, centers;
 } GiExtent;
 
-static inline void gi_extent_grow(GiExtent *extent, const GiBuildItem *item) {
-    GiFour center = gi_build_center(item);
-    gi_bounds_grow(&extent->bounds, gi_four_load(item->low), gi_four_load(item->high));
+static inline void gi_extent_grow(GiExtent *extent, const GiBounds *box) {
+    GiFour center = gi_bounds_center(box);
+    gi_bounds_grow(&extent->bounds, box->low, box->high);
     gi_bounds_grow(&extent->centers, center, center);
+}
+
+/* One thing to be put into the tree: its box, and in the fourth lanes its id (bits of a uint32_t)
+ * and a not-a-number, so that no sum of lanes is slow or means anything. */
+typedef struct GiBuildItem {
+    float low[4], high[4];
+} GiBuildItem;
+
+static inline void gi_build_set(GiBuildItem *item, const GiBounds *box, uint32_t id) {
+    gi_four_store(item->low, box->low);
+    gi_four_store(item->high, box->high);
+    memcpy(&item->low[3], &id, sizeof id);
+    item->high[3] = NAN;
+}
+
+static inline GiBounds gi_build_box(const GiBuildItem *item) {
+    return (GiBounds){gi_four_load(item->low), gi_four_load(item->high)};
+}
+
+static inline uint32_t gi_build_id(const GiBuildItem *item) {
+    uint32_t id;
+    memcpy(&id, &item->low[3], sizeof id);
+    return id;
+}
+
+static inline GiFour gi_build_center(const GiBuildItem *item) {
+    const GiBounds box = gi_build_box(item);
+    return gi_bounds_center(&box);
 }

@@ -105,7 +105,8 @@ bool gi_clusters_make(GiClusters *clusters, GiBuildItem *items, const GiRange *r
     }
     for (size_t i = 4 * quarter; i < count; i++) add_item(clusters, &grid, &items[i]);
     for (uint32_t i = 0; i < clusters->cluster_count; i++) {
-        gi_build_set_id(&clusters->clusters[i], i);
+        const GiBounds box = gi_build_box(&clusters->clusters[i]);
+        gi_build_set(&clusters->clusters[i], &box, i);
     }
     return true;
 }

@@ -173,11 +173,9 @@ static void prepare_items(void *context, size_t begin, size_t end, int worker) {
             survey.unbounded += !box_is_empty(&bounds);
             continue;
         }
-        GiKernelBox box = gi_kernel_box(&bounds, prepare->center, prepare->scale);
-        memcpy(item->low, box.low, sizeof box.low);
-        memcpy(item->high, box.high, sizeof box.high);
-        gi_build_set_id(item, ref.bits);
-        gi_extent_grow(&survey.extent, item);
+        GiBounds box = gi_kernel_box(&bounds, prepare->center, prepare->scale);
+        gi_build_set(item, &box, ref.bits);
+        gi_extent_grow(&survey.extent, &box);
         survey.bounds = box_around(&survey.bounds, &bounds);
         survey.bounded++;
     }

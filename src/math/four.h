@@ -13,6 +13,9 @@
 typedef __m128 GiFour;
 
 static inline GiFour gi_four(float x) { return _mm_set1_ps(x); }
+static inline GiFour gi_four_of(float x, float y, float z, float w) {
+    return _mm_setr_ps(x, y, z, w);
+}
 static inline GiFour gi_four_load(const float p[4]) { return _mm_loadu_ps(p); }
 static inline void gi_four_store(float p[4], GiFour a) { _mm_storeu_ps(p, a); }
 /* a < b ? a : b, and a > b ? a : b */
@@ -64,6 +67,9 @@ typedef struct GiFour {
     } while (0)
 
 static inline GiFour gi_four(float x) { GI_FOUR_EACH(x); }
+static inline GiFour gi_four_of(float x, float y, float z, float w) {
+    return (GiFour){{x, y, z, w}};
+}
 static inline GiFour gi_four_load(const float p[4]) { GI_FOUR_EACH(p[i]); }
 static inline void gi_four_store(float p[4], GiFour a) {
     for (int i = 0; i < 4; i++) p[i] = a.v[i];
