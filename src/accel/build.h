@@ -3,28 +3,8 @@
  * is the same for every number of threads. */
 #pragma once
 
+#include "accel/bounds.h"
 #include "sched/pool.h"
-
-#include <math.h>
-#include <stdint.h>
-#include <string.h>
-
-/* One thing to be put into the tree: its box, and in the fourth lanes its id (bits of a uint32_t)
- * and nothing. */
-typedef struct GiBuildItem {
-    float low[4], high[4];
-} GiBuildItem;
-
-static inline uint32_t gi_build_id(const GiBuildItem *item) {
-    uint32_t id;
-    memcpy(&id, &item->low[3], sizeof id);
-    return id;
-}
-
-static inline void gi_build_set_id(GiBuildItem *item, uint32_t id) {
-    memcpy(&item->low[3], &id, sizeof id);
-    item->high[3] = NAN;
-}
 
 enum { GI_BUILD_LEAF_SIZE = 8 };
 
@@ -42,9 +22,10 @@ typedef struct GiBuildTree {
     size_t node_count, node_capacity;
 } GiBuildTree;
 
-/* Permutes items into the order of the leaves. Errors: MEMORY, CANCELLED. count > 0. */
+/* Permutes items into the order of the leaves; extent is theirs. count > 0. Errors: MEMORY,
+ * CANCELLED; nothing is left behind then. */
 GlintStatus gi_build(GiMemory *memory, GiPool *pool, GiBuildItem *items, size_t count,
-    const GlintMonitor *monitor, GiBuildTree *tree);
+    const GiExtent *extent, const GlintMonitor *monitor, GiBuildTree *tree);
 void gi_build_free(GiMemory *memory, GiBuildTree *tree);
 
 /* Half the surface of a box: proportional to the chance that a random line meets it. */

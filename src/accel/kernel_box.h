@@ -2,6 +2,7 @@
  * Shapes' boxes in kernel space (layout.h). */
 #pragma once
 
+#include "accel/bounds.h"
 #include "accel/layout.h"
 
 #include <math.h>
@@ -22,20 +23,12 @@ static inline double gi_box_reach(const GiBox *box, GiVec center) {
     return gi_larger(x, gi_larger(y, z));
 }
 
-typedef struct GiKernelBox {
-    float low[3], high[3];
-} GiKernelBox;
-
-/* A shape's box in kernel space, grown by the error bound (layout.h). What has no finite box begins
- * with not-a-number. */
-static inline GiKernelBox gi_kernel_box(
-    const GiShapes *shapes, GiShapeRef ref, GiVec center, double scale) {
-    GiBox box = gi_shape_bounds(shapes, ref, GI_SHAPE_NONE);
-    double growth = GI_TREE_GROWTH * gi_box_reach(&box, center) + GI_TREE_GROWTH_LEAST / scale;
+/* A shape's finite box in kernel space, grown by the error bound (layout.h). */
+static inline GiBounds gi_kernel_box(const GiBox *box, GiVec center, double scale) {
+    double growth = GI_TREE_GROWTH * gi_box_reach(box, center) + GI_TREE_GROWTH_LEAST / scale;
     const GiVec reach = {growth, growth, growth};
-    GiVec low = gi_sub(gi_sub(box.low, center), reach);
-    GiVec high = gi_add(gi_sub(box.high, center), reach);
-    return (GiKernelBox){{gi_box_is_finite(&box) ? (float)(low.x * scale) : NAN,
-                             (float)(low.y * scale), (float)(low.z * scale)},
-        {(float)(high.x * scale), (float)(high.y * scale), (float)(high.z * scale)}};
+    GiVec low = gi_scale(gi_sub(gi_sub(box->low, center), reach), scale);
+    GiVec high = gi_scale(gi_add(gi_sub(box->high, center), reach), scale);
+    return (GiBounds){gi_four_of((float)low.x, (float)low.y, (float)low.z, NAN),
+        gi_four_of((float)high.x, (float)high.y, (float)high.z, NAN)};
 }

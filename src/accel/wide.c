@@ -181,33 +181,32 @@ static void fill_sphere_blocks(void *context, size_t begin, size_t end, int work
     }
 }
 
-static GiKernelBox item_box(const Layout *layout, const GiBuildNode *leaf, uint32_t i) {
-    GiKernelBox box;
-    if (layout->items == NULL) {
-        return gi_kernel_box(
-            layout->shapes, item_ref(layout, leaf, i), layout->center, layout->scale);
+static GiBounds item_box(const Layout *layout, const GiBuildNode *leaf, uint32_t i) {
+    if (layout->items != NULL) return gi_build_box(&layout->items[leaf->first + i]);
+    GiBox box = gi_shape_bounds(layout->shapes, item_ref(layout, leaf, i), GI_SHAPE_NONE);
+    return gi_kernel_box(&box, layout->center, layout->scale);
+}
+
+static void fill_box_block(const Layout *layout, const GiBuildNode *leaf, GiBoxBlock *block) {
+    for (uint32_t i = 0; i < GI_TREE_WIDTH; i++) {
+        GiBounds box = i < leaf->count ? item_box(layout, leaf, i) : gi_bounds_empty();
+        float low[4], high[4];
+        gi_four_store(low, box.low);
+        gi_four_store(high, box.high);
+        for (int axis = 0; axis < 3; axis++) {
+            block->low[axis][i] = low[axis];
+            block->high[axis][i] = high[axis];
+        }
+        if (i >= leaf->count) block->shape[i].bits = GI_SHAPE_NONE;
     }
-    const GiBuildItem *item = &layout->items[leaf->first + i];
-    memcpy(box.low, item->low, sizeof box.low);
-    memcpy(box.high, item->high, sizeof box.high);
-    return box;
 }
 
 static void fill_box_blocks(void *context, size_t begin, size_t end, int worker) {
     (void)worker;
     const Layout *layout = context;
-    const GiKernelBox none = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    for (size_t k = begin; k < end; k++) {
-        const GiBuildNode *leaf = &layout->nodes[layout->box_leaves[k]];
-        GiBoxBlock *block = &layout->store->box_blocks[k];
-        for (uint32_t i = 0; i < GI_TREE_WIDTH; i++) {
-            GiKernelBox box = i < leaf->count ? item_box(layout, leaf, i) : none;
-            for (int axis = 0; axis < 3; axis++) {
-                block->low[axis][i] = box.low[axis];
-                block->high[axis][i] = box.high[axis];
-            }
-            if (i >= leaf->count) block->shape[i].bits = GI_SHAPE_NONE;
-        }
+    for (size_t i = begin; i < end; i++) {
+        const GiBuildNode *leaf = &layout->nodes[layout->box_leaves[i]];
+        fill_box_block(layout, leaf, &layout->store->box_blocks[i]);
     }
 }
 

@@ -13,6 +13,9 @@
 typedef __m128 GiFour;
 
 static inline GiFour gi_four(float x) { return _mm_set1_ps(x); }
+static inline GiFour gi_four_of(float x, float y, float z, float w) {
+    return _mm_setr_ps(x, y, z, w);
+}
 static inline GiFour gi_four_load(const float p[4]) { return _mm_loadu_ps(p); }
 static inline void gi_four_store(float p[4], GiFour a) { _mm_storeu_ps(p, a); }
 /* a < b ? a : b, and a > b ? a : b */
@@ -21,6 +24,7 @@ static inline GiFour gi_four_max(GiFour a, GiFour b) { return _mm_max_ps(a, b); 
 static inline GiFour gi_four_add(GiFour a, GiFour b) { return _mm_add_ps(a, b); }
 static inline GiFour gi_four_sub(GiFour a, GiFour b) { return _mm_sub_ps(a, b); }
 static inline GiFour gi_four_multiply(GiFour a, GiFour b) { return _mm_mul_ps(a, b); }
+static inline GiFour gi_four_divide(GiFour a, GiFour b) { return _mm_div_ps(a, b); }
 /* Toward zero. */
 static inline void gi_four_to_int(GiFour a, int32_t to[4]) {
     _mm_storeu_si128((__m128i *)(void *)to, _mm_cvttps_epi32(a));
@@ -63,6 +67,9 @@ typedef struct GiFour {
     } while (0)
 
 static inline GiFour gi_four(float x) { GI_FOUR_EACH(x); }
+static inline GiFour gi_four_of(float x, float y, float z, float w) {
+    return (GiFour){{x, y, z, w}};
+}
 static inline GiFour gi_four_load(const float p[4]) { GI_FOUR_EACH(p[i]); }
 static inline void gi_four_store(float p[4], GiFour a) {
     for (int i = 0; i < 4; i++) p[i] = a.v[i];
@@ -76,6 +83,7 @@ static inline GiFour gi_four_max(GiFour a, GiFour b) {
 static inline GiFour gi_four_add(GiFour a, GiFour b) { GI_FOUR_EACH(a.v[i] + b.v[i]); }
 static inline GiFour gi_four_sub(GiFour a, GiFour b) { GI_FOUR_EACH(a.v[i] - b.v[i]); }
 static inline GiFour gi_four_multiply(GiFour a, GiFour b) { GI_FOUR_EACH(a.v[i] * b.v[i]); }
+static inline GiFour gi_four_divide(GiFour a, GiFour b) { GI_FOUR_EACH(a.v[i] / b.v[i]); }
 static inline void gi_four_to_int(GiFour a, int32_t to[4]) {
     for (int i = 0; i < 3; i++) to[i] = (int32_t)a.v[i];
     to[3] = 0; /* the lane to spare may hold anything */
