@@ -6,10 +6,10 @@
  * Most files give a corner one index for position, normal and texcoord; such need no corners of
  * their own for the latter. Whether that is so is known at the end only: it is guessed before the
  * second pass, and where the guess was wrong the pass is repeated with room for those corners. */
-#include "mesh/digits.h"
-#include "mesh/input.h"
+#include "mesh/obj.h"
 
-#include <string.h>
+#include "base/prefetch.h"
+#include "mesh/digits.h"
 
 /* What faces do with an attribute, as bits. */
 enum {
@@ -30,144 +30,14 @@ typedef struct Obj {
     _Atomic unsigned use[ATTRIBUTE_COUNT];
 } Obj;
 
-/* ---------------------------------------------------------------- lines */
-
-/* The length of a `\` with the end of line that it hides; 0 when there is none at p. */
-static inline size_t continuation(const char *p, const char *end) {
-    if (p == end || *p != '\\') return 0;
-    if (end - p >= 2 && p[1] == '\n') return 2;
-    return end - p >= 3 && p[1] == '\r' && p[2] == '\n' ? 3 : 0;
-}
-
-static inline const char *skip_blanks(const char *p, const char *end) {
-    for (;;) {
-        while (p < end && gi_mesh_is_blank(*p)) p++;
-        size_t length = continuation(p, end);
-        if (length == 0) return p;
-        p += length;
-    }
-}
-
-/* Where what counts of a line ends. */
-static inline bool is_line_end(const char *p, const char *end) {
-    return p == end || *p == '\n' || *p == '#';
-}
-
-static inline bool is_word_end(const char *p, const char *end) {
-    return p == end || gi_mesh_is_space(*p) || continuation(p, end) > 0;
-}
-
-static const char *after_newline(const char *p, const char *end) {
-    const char *newline = memchr(p, '\n', (size_t)(end - p));
-    return newline != NULL ? newline + 1 : end;
-}
-
-/* Whether p, which follows a newline, begins a line that does not continue another. */
-static bool begins_line(const char *text, const char *p) {
-    const char *last = p - 1;
-    if (last > text && last[-1] == '\r') last--;
-    return last == text || last[-1] != '\\';
-}
-
-static bool is_border(const GiMeshInput *input, const char *p) {
-    return p[-1] == '\n' && begins_line(input->text, p);
-}
-
-/* From within a line to the beginning of the next. */
-static inline const char *skip_line(const char *p, const char *end) {
-    if (p < end && *p == '\n') return p + 1;
-    const char *text = p;
-    do p = after_newline(p, end);
-    while (p < end && !begins_line(text, p));
-    return p;
-}
-
-/* From the beginning of a line to its keyword; past empty lines and comments. A line that is all
- * comment ends at its newline even after a `\`, since the names of folders end so. */
-static inline const char *find_keyword(const char *p, const char *end) {
-    for (;;) {
-        p = skip_blanks(p, end);
-        if (!is_line_end(p, end) || p == end) return p;
-        p = after_newline(p, end);
-    }
-}
-
-typedef enum Keyword { POSITION, NORMAL_VECTOR, TEXTURE, FACE, IGNORED, UNKNOWN } Keyword;
-
-static Keyword rare_keyword(const char *word, size_t length) {
-    /* Names, materials and hints; then lines, points and what belongs to curves. */
-    static const char ignored[][13] = {"o", "g", "s", "mg", "usemtl", "mtllib", "usemap", "maplib",
-        "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "l", "p", "vp"};
-    for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++) {
-        if (strlen(ignored[i]) == length && memcmp(ignored[i], word, length) == 0) return IGNORED;
-    }
-    return UNKNOWN;
-}
-
-/* Reads the keyword at *p and moves past it. */
-static inline Keyword read_keyword(const char **p, const char *end) {
-    const char *word = *p, *q = word + 1;
-    while (!is_word_end(q, end)) q++;
-    *p = q;
-    if (q - word == 1 && *word == 'v') return POSITION;
-    if (q - word == 1 && *word == 'f') return FACE;
-    if (q - word == 2 && word[0] == 'v' && word[1] == 'n') return NORMAL_VECTOR;
-    if (q - word == 2 && word[0] == 'v' && word[1] == 't') return TEXTURE;
-    return rare_keyword(word, (size_t)(q - word));
-}
-
 /* ---------------------------------------------------------------- counting */
-
-/* The same for a line of words and blanks alone, eight bytes at a time: where words end need not be
- * guessed then. False where the line has anything else, or the chunk ends too soon. */
-static bool count_plain_words(const char **line, const char *end, size_t *count) {
-#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    /* High bits tell of bytes. `equal` may also set some above the lowest that it should. */
-    const uint64_t ones = UINT64_C(0x0101010101010101), high = 0x80 * ones;
-#define EQUAL(c) (((bytes ^ (c)*ones) - ones) & ~(bytes ^ (c)*ones) & high)
-    uint64_t blank_before = 0x80, bytes;
-    for (const char *p = *line; end - p >= 8; p += 8) {
-        memcpy(&bytes, p, sizeof bytes);
-        uint64_t newline = EQUAL('\n'), before_it = (newline - 1) & ~newline & high;
-        uint64_t control = ~((bytes | high) - 0x20 * ones);
-        if (((EQUAL('#') | EQUAL('\\') | control | bytes) & before_it) != 0) return false;
-        uint64_t word = (bytes ^ ' ' * ones) + 0x7f * ones; /* exact, as no byte has its high bit */
-        uint64_t begins = word & (~word << 8 | blank_before) & before_it;
-        *count += ((begins >> 7) * ones) >> 56;
-        if (newline != 0) {
-            *line = p + __builtin_ctzll(newline) / 8;
-            return true;
-        }
-        blank_before = (~word & high) >> 56;
-    }
-#undef EQUAL
-#endif
-    (void)line, (void)end, (void)count;
-    return false;
-}
-
-/* Stops at the end of the line. */
-static size_t count_words(const char **line, const char *end) {
-    const char *p = *line;
-    size_t count = 0;
-    if (count_plain_words(line, end, &count)) return count;
-    count = 0;
-    for (;; count++) {
-        p = skip_blanks(p, end);
-        if (is_line_end(p, end)) break;
-        do p++;
-        while (!is_word_end(p, end));
-    }
-    *line = p;
-    return count;
-}
 
 /* Whether a corner has different indices, as far as text tells. */
 static bool is_apart(const char *p, const char *end, int attribute) {
     const char *part[3] = {p, NULL, NULL}; /* position, texcoord, normal */
     size_t length[3] = {0};
     int count = 0;
-    for (; !is_word_end(p, end) && count < 3; p++) {
+    for (; !gi_obj_is_word_end(p, end) && count < 3; p++) {
         if (*p != '/') {
             length[count]++;
         } else if (++count < 3) {
@@ -181,29 +51,15 @@ static bool is_apart(const char *p, const char *end, int attribute) {
 
 static bool count_chunk(void *context, size_t chunk, int worker) {
     Obj *obj = context;
-    GiMeshCounts counts = {0};
-    const char *p = obj->chunks.begin[chunk], *end = obj->chunks.begin[chunk + 1];
-    while ((p = find_keyword(p, end)) < end) {
-        switch (read_keyword(&p, end)) {
-        case POSITION: counts.positions++; break;
-        case NORMAL_VECTOR: counts.normals++; break;
-        case TEXTURE: counts.texcoords++; break;
-        case FACE: {
-            /* A look at one face of each chunk is enough to guess. */
-            const char *corner = skip_blanks(p, end);
-            for (int i = 0; i < ATTRIBUTE_COUNT && counts.triangles == 0; i++) {
-                if (is_apart(corner, end, i)) atomic_store(&obj->use[i], USED_APART);
-            }
-            size_t words = count_words(&p, end);
-            counts.triangles += words > 2 ? words - 2 : 0;
-            break;
+    const char *begin = obj->chunks.begin[chunk], *end = obj->chunks.begin[chunk + 1], *face;
+    obj->before[chunk] = gi_obj_count(begin, end, &face);
+    /* A look at one face of each chunk is enough to guess. */
+    for (int i = 0; i < ATTRIBUTE_COUNT && face != NULL; i++) {
+        if (is_apart(gi_obj_skip_blanks(face, end), end, i)) {
+            atomic_store(&obj->use[i], USED_APART);
         }
-        default: break;
-        }
-        p = skip_line(p, end);
     }
-    obj->before[chunk] = counts;
-    gi_mesh_forget(obj->input, obj->chunks.begin[chunk], end);
+    gi_mesh_forget(obj->input, begin, end);
     (void)worker;
     return true;
 }
@@ -248,8 +104,8 @@ static bool read_numbers(Parser *parser, int wanted, int fewest, int most, float
     const char *p = parser->p;
     int count = 0;
     for (;; count++) {
-        p = skip_blanks(p, parser->end);
-        if (is_line_end(p, parser->end)) break;
+        p = gi_obj_skip_blanks(p, parser->end);
+        if (gi_obj_is_line_end(p, parser->end)) break;
         if (count == most) {
             return gi_mesh_refuse(parser->input, parser->worker, p,
                 "expected the end of the line, found \"%s\"", gi_mesh_quote(p, parser->end).text);
@@ -258,7 +114,7 @@ static bool read_numbers(Parser *parser, int wanted, int fewest, int most, float
         const char *number_end =
             gi_mesh_number(parser->input, parser->worker, p, parser->end, &value);
         if (number_end == NULL) return false;
-        if (!is_word_end(number_end, parser->end)) {
+        if (!gi_obj_is_word_end(number_end, parser->end)) {
             return gi_mesh_no_number(parser->input, parser->worker, p, parser->end);
         }
         if (count < wanted) values[count] = value;
@@ -309,7 +165,7 @@ static inline bool repeats_index(const char *word, const char *p, const char *en
     uint64_t first, second;
     memcpy(&first, word, sizeof first);
     memcpy(&second, p + 2, sizeof second);
-    return (first ^ second) << (64 - 8 * length) == 0 && is_word_end(p + 2 + length, end);
+    return (first ^ second) << (64 - 8 * length) == 0 && gi_obj_is_word_end(p + 2 + length, end);
 #else
     (void)word, (void)p, (void)end;
     return false;
@@ -331,21 +187,21 @@ static inline bool read_corner(Parser *parser, int number, Corner *corner) {
     }
     if (parser->p < end && *parser->p == '/') {
         parser->p++;
-        if (!is_word_end(parser->p, end) && *parser->p != '/' &&
+        if (!gi_obj_is_word_end(parser->p, end) && *parser->p != '/' &&
             !read_index(parser, "texture coordinate", number, parser->at.texcoords,
                 parser->total.texcoords, &corner->other[TEXCOORD])) {
             return false;
         }
         if (parser->p < end && *parser->p == '/') {
             parser->p++;
-            if (!is_word_end(parser->p, end) &&
+            if (!gi_obj_is_word_end(parser->p, end) &&
                 !read_index(parser, "normal", number, parser->at.normals, parser->total.normals,
                     &corner->other[NORMAL])) {
                 return false;
             }
         }
     }
-    if (is_word_end(parser->p, end)) return true;
+    if (gi_obj_is_word_end(parser->p, end)) return true;
     return gi_mesh_refuse(parser->input, parser->worker, word,
         "face corner %d is not a, a/b, a//c or a/b/c: \"%s\"", number,
         gi_mesh_quote(word, end).text);
@@ -357,6 +213,18 @@ static inline void put_row(GiCorners *row, uint32_t first, uint32_t a, uint32_t 
     (*row)[2] = first + c;
 }
 
+static inline void put_triangle(
+    Parser *parser, size_t at, const Corner *first, const Corner *last, const Corner *corner) {
+    Obj *obj = parser->obj;
+    put_row(&obj->room.corners[at], obj->first_position, first->position, last->position,
+        corner->position);
+    for (int i = 0; i < ATTRIBUTE_COUNT; i++) {
+        if (obj->own_corners[i] == NULL) continue;
+        put_row(&obj->own_corners[i][at], obj->first[i], first->other[i], last->other[i],
+            corner->other[i]);
+    }
+}
+
 static bool read_face(Parser *parser) {
     Obj *obj = parser->obj;
     const char *line = parser->p;
@@ -365,8 +233,8 @@ static bool read_face(Parser *parser) {
     bool missing[ATTRIBUTE_COUNT] = {false}, apart[ATTRIBUTE_COUNT] = {false};
     int count = 0;
     for (;; count++) {
-        parser->p = skip_blanks(parser->p, parser->end);
-        if (is_line_end(parser->p, parser->end)) break;
+        parser->p = gi_obj_skip_blanks(parser->p, parser->end);
+        if (gi_obj_is_line_end(parser->p, parser->end)) break;
         if (!read_corner(parser, count + 1, &corner)) return false;
         for (int i = 0; i < ATTRIBUTE_COUNT; i++) {
             missing[i] |= corner.other[i] == GI_SHAPE_NONE;
@@ -374,16 +242,10 @@ static bool read_face(Parser *parser) {
         }
         if (count == 0) first = corner;
         if (count >= 2) {
-            size_t at = parser->at.triangles;
-            if (!has_room(parser, at, parser->limit.triangles)) return false;
-            put_row(&obj->room.corners[at], obj->first_position, first.position, last.position,
-                corner.position);
-            for (int i = 0; i < ATTRIBUTE_COUNT; i++) {
-                if (obj->own_corners[i] == NULL) continue;
-                put_row(&obj->own_corners[i][at], obj->first[i], first.other[i], last.other[i],
-                    corner.other[i]);
-            }
-            parser->at.triangles++;
+            /* The first pass may have missed some where a face has too few corners: that face is
+             * refused when it is met. */
+            size_t at = parser->at.triangles++;
+            if (at < parser->limit.triangles) put_triangle(parser, at, &first, &last, &corner);
         }
         last = corner;
     }
@@ -394,7 +256,7 @@ static bool read_face(Parser *parser) {
     for (int i = 0; i < ATTRIBUTE_COUNT; i++) {
         parser->use[i] |= missing[i] ? NOT_USED : apart[i] ? USED_APART : USED_ALIKE;
         if (!missing[i] || obj->own_corners[i] == NULL) continue;
-        for (size_t at = begin; at < parser->at.triangles; at++) {
+        for (size_t at = begin; at < parser->at.triangles && at < parser->limit.triangles; at++) {
             obj->own_corners[i][at][0] = GI_SHAPE_NONE;
         }
     }
@@ -406,23 +268,23 @@ static bool read_line(Parser *parser) {
     GiMeshCounts *at = &parser->at, *limit = &parser->limit;
     const char *word = parser->p;
     float unused[3];
-    switch (read_keyword(&parser->p, parser->end)) {
-    case POSITION:
+    switch (gi_obj_read_keyword(&parser->p, parser->end)) {
+    case GI_OBJ_POSITION:
         /* Then a weight, a colour, or both. */
         return has_room(parser, at->positions, limit->positions) &&
                read_numbers(parser, 3, 3, 7, obj->room.positions[at->positions++]);
-    case NORMAL_VECTOR:
+    case GI_OBJ_NORMAL_VECTOR:
         return has_room(parser, at->normals, limit->normals) &&
                read_numbers(parser, 3, 3, 3, obj->room.normals[at->normals++]);
-    case TEXTURE:
+    case GI_OBJ_TEXTURE:
         if (!has_room(parser, at->texcoords, limit->texcoords)) return false;
         unused[1] = 0;
         if (!read_numbers(parser, 2, 1, 3, unused)) return false;
         memcpy(obj->room.texcoords[at->texcoords++], unused, sizeof obj->room.texcoords[0]);
         return true;
-    case FACE: return read_face(parser);
-    case IGNORED: return true;
-    case UNKNOWN: break;
+    case GI_OBJ_FACE: return read_face(parser);
+    case GI_OBJ_IGNORED: return true;
+    case GI_OBJ_UNKNOWN: break;
     }
     return gi_mesh_refuse(parser->input, parser->worker, word, "unknown keyword \"%s\"",
         gi_mesh_quote(word, parser->p).text);
@@ -443,9 +305,10 @@ static bool parse_chunk(void *context, size_t chunk, int worker) {
         .at = obj->before[chunk],
         .limit = obj->before[chunk + 1],
         .total = obj->before[obj->chunks.count]};
-    while ((parser.p = find_keyword(parser.p, parser.end)) < parser.end) {
+    while ((parser.p = gi_obj_find_keyword(parser.p, parser.end)) < parser.end) {
+        gi_prefetch_ahead(parser.p, GI_OBJ_AHEAD);
         if (!read_line(&parser)) return false;
-        parser.p = skip_line(parser.p, parser.end);
+        parser.p = gi_obj_skip_line(parser.p, parser.end);
     }
     gi_mesh_forget(obj->input, begin, parser.end);
     bool guess_holds = true;
@@ -458,6 +321,10 @@ static bool parse_chunk(void *context, size_t chunk, int worker) {
 }
 
 /* ---------------------------------------------------------------- the whole */
+
+static bool is_border(const GiMeshInput *input, const char *p) {
+    return p[-1] == '\n' && gi_obj_begins_line(input->text, p);
+}
 
 /* Bytes; not 0 even for the faces without triangles of a faulty file. */
 static size_t own_size(size_t triangle_count) {
