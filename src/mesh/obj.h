@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The lines of a Wavefront OBJ file and the keywords that they begin with, for both passes over it.
+ * The two passes over a Wavefront OBJ file, and what they share: lines and their keywords.
  */
 #pragma once
 
@@ -99,3 +99,32 @@ static inline GiObjKeyword gi_obj_read_keyword(const char **p, const char *end) 
  * A chunk with a face of fewer than three corners, which is a fault, may count as having fewer
  * triangles than it has. */
 GiMeshCounts gi_obj_count(const char *begin, const char *end, const char **face);
+
+/* ---------------------------------------------------------------- parsing */
+
+/* What faces do with an attribute, as bits. */
+enum {
+    GI_OBJ_NOT_USED = 1,   /* a face without it */
+    GI_OBJ_USED_ALIKE = 2, /* a face whose positions have the same indices */
+    GI_OBJ_USED_APART = 4
+};
+
+enum { GI_OBJ_NORMAL, GI_OBJ_TEXCOORD, GI_OBJ_ATTRIBUTE_COUNT };
+
+typedef struct GiObj {
+    GiMeshInput *input;
+    GiMeshChunks chunks;
+    GiMeshCounts *before; /* of each chunk, what lies before it; at the end the totals */
+    GiMeshRoom room;
+    uint32_t first_position, first[GI_OBJ_ATTRIBUTE_COUNT]; /* in the scene-wide arrays */
+    GiCorners *own_corners[GI_OBJ_ATTRIBUTE_COUNT];         /* null: none yet */
+    _Atomic unsigned use[GI_OBJ_ATTRIBUTE_COUNT];
+} GiObj;
+
+static inline bool gi_obj_needs_own_corners(unsigned use) {
+    return (use & GI_OBJ_USED_APART) != 0 || use == (GI_OBJ_NOT_USED | GI_OBJ_USED_ALIKE);
+}
+
+/* The second pass: a chunk into its part of the room. A GiMeshChunkFn whose context is the GiObj;
+ * false when something was refused, or own corners turned out to be needed. */
+bool gi_obj_parse_chunk(void *obj, size_t chunk, int worker);
