@@ -451,7 +451,7 @@ static const char *load_file(Loaded *loaded, const char *path, const GlintMonito
     memset(loaded, 0, sizeof *loaded);
     gi_memory_init(&loaded->memory, NULL, 0);
     loaded->status = gi_mesh_load(
-        &loaded->store, &loaded->memory, 2, path, monitor, &loaded->mesh, &loaded->fault);
+        &loaded->store, &loaded->memory, 2, path, NULL, monitor, &loaded->mesh, &loaded->fault);
     return describe(loaded);
 }
 

@@ -37,7 +37,8 @@ static bool count_chunk(void *context, size_t chunk, int worker) {
             atomic_store(&obj->use[i], GI_OBJ_USED_APART);
         }
     }
-    gi_mesh_forget(obj->input, begin, end);
+    /* The bytes are not forgotten yet: the second pass begins at once, and its arrays grow more
+     * slowly than it forgets. */
     (void)worker;
     return true;
 }
