@@ -379,8 +379,8 @@ GlintStatus glint_scene_load_mesh(
     if (!is_path(path, error)) return GLINT_ERROR_ARGUMENT;
     uint32_t index;
     GiMeshFault fault = {0};
-    status = gi_mesh_load(
-        &scene->model.meshes, &scene->memory, scene->thread_count, path, NULL, &index, &fault);
+    status = gi_mesh_load(&scene->model.meshes, &scene->memory, scene->thread_count, path, NULL,
+        NULL, &index, &fault);
     if (status != GLINT_OK) {
         gi_error_set_path(error, status, path, "%s", fault.message);
         if (error != NULL) error->line = fault.line < INT_MAX ? (int)fault.line : INT_MAX;

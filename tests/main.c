@@ -22,6 +22,7 @@
     X(sample) \
     X(samples) \
     X(mesh) \
+    X(obj) \
     X(ply) \
     X(reader) \
     X(recipe) \

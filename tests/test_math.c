@@ -3,6 +3,7 @@
 #include "test.h"
 
 #include "math/affine.h"
+#include "math/bytes.h"
 #include "math/elementary.h"
 #include "random.h"
 
@@ -284,6 +285,33 @@ static void vectors_products(void) {
         gi_sub(gi_add(gi_vec(1, 2, 3), gi_vec(4, 5, 6)), gi_vec(4, 5, 6)), gi_vec(1, 2, 3), 0);
 }
 
+/* ---------------------------------------------------------------- bytes */
+
+static void bytes_at_random(void) {
+    static const char likely[] = " \t\n\v\f\r\b\x0e\x1f!0/#\\\x80\x89\x8d\xa0\xff";
+    Random random = {5};
+    for (int round = 0; round < 2000; round++) {
+        char text[GI_BYTES];
+        uint64_t spaces = 0, zeros = 0, high = 0;
+        for (int i = 0; i < GI_BYTES; i++) {
+            uint64_t bits = random_bits(&random);
+            text[i] = bits % 4 == 0 ? (char)(bits >> 8) : likely[(bits >> 8) % sizeof likely];
+            bool space = text[i] == ' ' || (text[i] >= '\t' && text[i] <= '\r');
+            spaces |= (uint64_t)space << i;
+            zeros |= (uint64_t)(text[i] == '0') << i;
+            high |= (uint64_t)(text[i] == '\x89') << i;
+        }
+        GiBytes bytes = gi_bytes_load(text);
+        CHECK(gi_bytes_space(bytes) == spaces);
+        CHECK(gi_bytes_equal(bytes, '0') == zeros);
+        CHECK(gi_bytes_equal(bytes, '\x89') == high);
+        int count = 0;
+        for (uint64_t rest = spaces; rest != 0; rest &= rest - 1) count++;
+        CHECK_INT(gi_bytes_count(spaces), count);
+    }
+    CHECK_INT(gi_bytes_count(UINT64_MAX), 64);
+}
+
 const GiTest tests_math[] = {TEST(power_random), TEST(power_edges), TEST(sine_and_cosine),
     TEST(maps_multiply), TEST(maps_invert), TEST(maps_singular), TEST(maps_rotate),
-    TEST(vectors_normalize), TEST(vectors_products), TEST_END};
+    TEST(vectors_normalize), TEST(vectors_products), TEST(bytes_at_random), TEST_END};

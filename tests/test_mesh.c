@@ -13,20 +13,25 @@
 
 /* ---------------------------------------------------------------- numbers */
 
+/* With nothing behind it, in a copy of exact size, so that reading past the end is found; and with
+ * enough behind it for the short way. */
 static void check_number(const char *text) {
-    size_t length = strlen(text);
+    size_t length = strlen(text), sizes[] = {length, length + GI_DECIMAL_LOOK};
     char *expected_end;
-    float expected = strtof(text, &expected_end), value = 0;
-    /* A copy of exact size, so that reading past the end is found. */
-    char *copy = malloc(length + 1);
-    memcpy(copy, text, length);
-    const char *end = gi_decimal_read(copy, copy + length, &value);
-    if (end == NULL || end - copy != expected_end - text ||
-        memcmp(&value, &expected, sizeof value) != 0) {
-        test_fail(
-            __FILE__, __LINE__, "%s is %.9g, not %.9g", text, (double)value, (double)expected);
+    float expected = strtof(text, &expected_end);
+    for (int i = 0; i < 2; i++) {
+        char *copy = malloc(sizes[i] + 1);
+        memset(copy, ' ', sizes[i]);
+        memcpy(copy, text, length);
+        float value = 0;
+        const char *end = gi_decimal_read(copy, copy + sizes[i], &value);
+        if (end == NULL || end - copy != expected_end - text ||
+            memcmp(&value, &expected, sizeof value) != 0) {
+            test_fail(
+                __FILE__, __LINE__, "%s is %.9g, not %.9g", text, (double)value, (double)expected);
+        }
+        free(copy);
     }
-    free(copy);
 }
 
 static float float_of_bits(uint32_t bits) {
@@ -60,7 +65,10 @@ static void numbers_by_hand(void) {
         "", "-", "+", ".", "-.", "e5", "abc", "inf", "nan", " 1", "--1", "+-1"};
     for (size_t i = 0; i < sizeof none / sizeof none[0]; i++) {
         float value;
+        char padded[64];
+        int length = snprintf(padded, sizeof padded, "%-48s", none[i]);
         CHECK(gi_decimal_read(none[i], none[i] + strlen(none[i]), &value) == NULL);
+        CHECK(gi_decimal_read(padded, padded + length, &value) == NULL);
     }
 }
 
@@ -443,7 +451,7 @@ static const char *load_file(Loaded *loaded, const char *path, const GlintMonito
     memset(loaded, 0, sizeof *loaded);
     gi_memory_init(&loaded->memory, NULL, 0);
     loaded->status = gi_mesh_load(
-        &loaded->store, &loaded->memory, 2, path, monitor, &loaded->mesh, &loaded->fault);
+        &loaded->store, &loaded->memory, 2, path, NULL, monitor, &loaded->mesh, &loaded->fault);
     return describe(loaded);
 }
 

@@ -4,15 +4,7 @@
  * then whole numbers of any length tell on which side of the middle the decimal number is. */
 #include "mesh/decimal.h"
 
-#include "math/bits.h"
-
-#include "mesh/digits.h"
-
 #include <math.h> /* INFINITY */
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
 
 typedef struct Decimal {
     const char *digits, *end; /* as written, with the point, without leading zeros */
@@ -21,11 +13,8 @@ typedef struct Decimal {
     int64_t exponent;         /* the number is 0.digits * 10^exponent */
 } Decimal;
 
-/* Powers of ten that a double holds exactly. */
-static const double powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12,
-    1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-
-enum { POWER_LIMIT = 22, CERTAIN_DIGITS = 18 };
+const double gi_decimal_powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
+    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 /* ---------------------------------------------------------------- any length */
 
@@ -98,13 +87,6 @@ static double middle_near(double value) {
 
 /* ---------------------------------------------------------------- rounding */
 
-/* Whether a double with an error of up to 8 units in the last place rounds to the float that the
- * exact number rounds to. Below the normal floats the middles lie elsewhere. */
-static bool is_decided(double value) {
-    uint32_t rest = (uint32_t)gi_bits_of(value) & 0x1fffffff;
-    return rest - (0x10000000 - 8) > 16 && value >= 0x1p-126;
-}
-
 static float to_float(double value) { return value >= 0x1.ffffffp127 ? INFINITY : (float)value; }
 
 /* For leading > 0. */
@@ -114,10 +96,13 @@ static float convert(const Decimal *decimal) {
     if (decimal->exponent < -45) return 0;
     int exponent = (int)decimal->exponent - decimal->significant;
     double value = (double)decimal->leading;
-    for (; exponent < -POWER_LIMIT; exponent += POWER_LIMIT) value /= powers[POWER_LIMIT];
-    for (; exponent > POWER_LIMIT; exponent -= POWER_LIMIT) value *= powers[POWER_LIMIT];
-    value = exponent < 0 ? value / powers[-exponent] : value * powers[exponent];
-    if (is_decided(value)) return to_float(value);
+    for (; exponent < -GI_DECIMAL_POWER_LIMIT; exponent += GI_DECIMAL_POWER_LIMIT)
+        value /= gi_decimal_powers[GI_DECIMAL_POWER_LIMIT];
+    for (; exponent > GI_DECIMAL_POWER_LIMIT; exponent -= GI_DECIMAL_POWER_LIMIT)
+        value *= gi_decimal_powers[GI_DECIMAL_POWER_LIMIT];
+    value =
+        exponent < 0 ? value / gi_decimal_powers[-exponent] : value * gi_decimal_powers[exponent];
+    if (gi_decimal_is_decided(value)) return to_float(value);
     double middle = middle_near(value);
     int side = compare(decimal, middle);
     return to_float(gi_from_bits(gi_bits_of(middle) + (uint64_t)(int64_t)side));
@@ -139,16 +124,20 @@ static const char *read_exponent(const char *p, const char *end, int64_t *expone
     return q;
 }
 
-/* Any number, after its sign. */
-static const char *read_any(const char *p, const char *end, float *value) {
+const char *gi_decimal_read_any(const char *text, const char *end, float *value) {
+    const char *p = text;
+    bool negative = p < end && *p == '-';
+    p += negative | (p < end && *p == '+');
     Decimal decimal = {.digits = NULL};
     const char *point = NULL;
+    int64_t count = 0; /* of all digits, leading zeros too */
     for (; p < end; p++) {
         if (*p == '.' && point == NULL) {
             point = p;
             continue;
         }
         if (!gi_is_digit(*p)) break;
+        count++;
         if (decimal.digits == NULL) {
             if (*p == '0') {
                 decimal.exponent -= point != NULL;
@@ -162,34 +151,9 @@ static const char *read_any(const char *p, const char *end, float *value) {
             decimal.significant++;
         }
     }
+    if (count == 0) return NULL;
     decimal.end = p;
     p = read_exponent(p, end, &decimal.exponent);
-    *value = decimal.leading > 0 ? convert(&decimal) : 0;
-    return p;
-}
-
-const char *gi_decimal_read(const char *text, const char *end, float *value) {
-    const char *p = text;
-    bool negative = p < end && *p == '-';
-    p += negative | (p < end && *p == '+');
-    const char *first = p;
-    uint64_t digits = 0; /* wraps when there are too many, which is found out below */
-    p = gi_digits_read(p, end, &digits);
-    ptrdiff_t count = p - first, decimals = 0;
-    if (p < end && *p == '.') {
-        const char *point = p + 1;
-        p = gi_digits_read(point, end, &digits);
-        decimals = p - point;
-        count += decimals;
-    }
-    if (count == 0) return NULL;
-    if (count <= CERTAIN_DIGITS && (p == end || (*p != 'e' && *p != 'E'))) {
-        double quotient = (double)(int64_t)digits / powers[decimals];
-        *value = (float)quotient;
-        if (!is_decided(quotient) && digits != 0) read_any(first, end, value);
-    } else {
-        p = read_any(first, end, value);
-    }
-    *value *= (float)(1 - 2 * negative);
+    *value = (decimal.leading > 0 ? convert(&decimal) : 0) * (float)(1 - 2 * negative);
     return p;
 }

@@ -235,22 +235,28 @@ GlintStatus gi_mesh_read(GiMeshStore *store, GiMemory *memory, const GiMeshSourc
     return read_source(store, memory, source, NULL, mesh, fault);
 }
 
+static GlintStatus map_file(GiFileBytes *file, GiMemory *memory, const char *path,
+    const GlintMonitor *monitor, GiMeshFault *fault) {
+    GlintError error = {.message = ""};
+    GlintStatus status = gi_file_bytes_load(file, memory, path, monitor, &error);
+    if (status == GLINT_CANCELLED) gi_error_set(&error, status, "%s", glint_status_text(status));
+    return status == GLINT_OK ? status : gi_mesh_fault(fault, status, "%s", error.message);
+}
+
 GlintStatus gi_mesh_load(GiMeshStore *store, GiMemory *memory, int thread_count, const char *path,
-    const GlintMonitor *monitor, uint32_t *mesh, GiMeshFault *fault) {
+    const GiFileBytes *bytes, const GlintMonitor *monitor, uint32_t *mesh, GiMeshFault *fault) {
     GiMeshSource source = {
         .format = gi_mesh_format(path), .thread_count = thread_count, .monitor = monitor};
-    GiFileBytes file = {.bytes = NULL};
-    GlintError error = {.message = ""};
-    GlintStatus status = GLINT_OK;
-    if (source.format != GI_MESH_FORMAT_COUNT) {
-        status = gi_file_bytes_load(&file, memory, path, monitor, &error);
+    GiFileBytes own = {.bytes = NULL};
+    const GiFileBytes *file = bytes != NULL ? bytes : &own;
+    if (bytes == NULL && source.format != GI_MESH_FORMAT_COUNT) {
+        GlintStatus status = map_file(&own, memory, path, monitor, fault);
+        if (status != GLINT_OK) return status;
     }
-    if (status == GLINT_CANCELLED) gi_error_set(&error, status, "%s", glint_status_text(status));
-    if (status != GLINT_OK) return gi_mesh_fault(fault, status, "%s", error.message);
     /* An empty file has no address, which arithmetic on pointers would like to see. */
-    source.bytes = file.bytes != NULL ? file.bytes : "";
-    source.size = file.size;
-    status = read_source(store, memory, &source, &file, mesh, fault);
-    gi_file_bytes_free(&file, memory);
+    source.bytes = file->bytes != NULL ? file->bytes : "";
+    source.size = file->size;
+    GlintStatus status = read_source(store, memory, &source, file, mesh, fault);
+    gi_file_bytes_free(&own, memory);
     return status;
 }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "base/array.h"
+#include "port/file.h"
 #include "shape/shape.h"
 
 typedef float GiFloat3[3];
@@ -38,12 +39,14 @@ typedef enum GiMeshFormat {
 /* By the extension of the name, in capitals or not. */
 GiMeshFormat gi_mesh_format(const char *path);
 
-/* Reads a file and adds its mesh, which gets the index *mesh. thread_count 0: one per core; only a
- * large file takes more than one thread. monitor may be null, and is called on this thread only.
+/* Reads a file and adds its mesh, which gets the index *mesh. bytes: what is in the file, for
+ * callers that have it, of which nothing stays in memory that need not; null: it is opened here.
+ * thread_count 0: one per core; only a large file takes more than one thread. monitor may be null,
+ * and is called on this thread only.
  * A mesh has at least one triangle. Errors, with *fault filled: SCENE (what the file says), FILE,
  * MEMORY, THREAD, CANCELLED; the store then holds what it held. */
 GlintStatus gi_mesh_load(GiMeshStore *store, GiMemory *memory, int thread_count, const char *path,
-    const GlintMonitor *monitor, uint32_t *mesh, GiMeshFault *fault);
+    const GiFileBytes *bytes, const GlintMonitor *monitor, uint32_t *mesh, GiMeshFault *fault);
 
 /* The same from memory. */
 typedef struct GiMeshSource {

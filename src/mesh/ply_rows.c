@@ -2,7 +2,7 @@
  * The rows of a PLY file, as words or as bytes: passed over to count their triangles and to find
  * whether the file holds what it declares, then read for their numbers. A row ends where its last
  * value does; ends of lines are white space like any other. */
-#include "mesh/digits.h"
+#include "math/digits.h"
 #include "mesh/ply.h"
 
 #include <float.h>

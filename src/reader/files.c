@@ -237,33 +237,34 @@ static bool report_loader(
     return false;
 }
 
-/* Notes a file among those of the scene, with what its content is before it is loaded. A pipe
- * cannot be read twice, and what cannot be read is told by its loader. */
-static bool note_file(const Loading *loading, GlintFileKind kind, const char *name) {
+/* Notes a file among those of the scene, with what its content is before it is loaded. *bytes is
+ * then that content, as far as it could be had: a pipe cannot be read twice, and what cannot be
+ * read is told by its loader. */
+static bool note_file(
+    const Loading *loading, GlintFileKind kind, const char *name, GiFileBytes *bytes) {
     GiReader *reader = loading->reader;
     GiSceneFile *file = gi_scene_add_file(reader->scene, kind, name, loading->path);
+    *bytes = (GiFileBytes){.bytes = NULL};
     if (file == NULL) {
         gi_reader_out_of_memory(reader);
         return false;
     }
     GiFileId id;
-    GiFileBytes bytes;
     if (gi_file_identify(loading->path, &id) != GI_FILE_REGULAR) return true;
-    if (gi_file_bytes_load(&bytes, reader->memory, loading->path, NULL, NULL) != GLINT_OK) {
+    if (gi_file_bytes_load(bytes, reader->memory, loading->path, NULL, NULL) != GLINT_OK) {
         return true;
     }
-    file->size = bytes.size;
-    file->digest = gi_digest(0, bytes.bytes, bytes.size);
-    gi_file_bytes_free(&bytes, reader->memory);
+    file->size = bytes->size;
+    file->digest = gi_digest(0, bytes->bytes, bytes->size);
     return true;
 }
 
-static bool load_mesh(const Loading *loading, uint32_t *index) {
+static bool load_mesh(const Loading *loading, const GiFileBytes *bytes, uint32_t *index) {
     GiReader *reader = loading->reader;
     const GiReaderSource *source = reader->source;
     GiMeshFault fault = {0};
     GlintStatus status = gi_mesh_load(&reader->scene->meshes, reader->memory, source->thread_count,
-        loading->path, source->monitor, index, &fault);
+        loading->path, bytes->bytes != NULL ? bytes : NULL, source->monitor, index, &fault);
     return report_loader(loading, status, fault.message, fault.line);
 }
 
@@ -314,8 +315,12 @@ static bool load_found(
     }
     *index = 0;
     bool mesh = kind == GI_KIND_SURFACE;
-    if (!note_file(loading, mesh ? GLINT_FILE_MESH : GLINT_FILE_TEXTURE, name)) return false;
-    bool good = mesh ? load_mesh(loading, index) : load_picture(loading, index);
+    GiFileBytes bytes;
+    if (!note_file(loading, mesh ? GLINT_FILE_MESH : GLINT_FILE_TEXTURE, name, &bytes))
+        return false;
+    if (!mesh) gi_file_bytes_free(&bytes, reader->memory);
+    bool good = mesh ? load_mesh(loading, &bytes, index) : load_picture(loading, index);
+    gi_file_bytes_free(&bytes, reader->memory);
     reader->files.loaded.data[reader->files.loaded.count++] =
         (GiLoadedFile){id, kind, *index, !good};
     return good;
@@ -375,7 +380,9 @@ bool gi_files_environment(GiReader *reader, GiVec name, GiPlace place) {
         return true;
     }
     Loading loading = {reader, path, place, (int)name.y};
-    if (!note_file(&loading, GLINT_FILE_ENVIRONMENT, text)) return false;
+    GiFileBytes bytes;
+    if (!note_file(&loading, GLINT_FILE_ENVIRONMENT, text, &bytes)) return false;
+    gi_file_bytes_free(&bytes, reader->memory);
     GlintError error = {0};
     GlintStatus status = gi_environment_load(&loaded, reader->memory, path, name.z, &error);
     if (!report_loader(&loading, status, error.message, 0)) return false;

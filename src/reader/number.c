@@ -10,9 +10,9 @@
  *   3. Whole numbers of any length, divided bit by bit. Slow, rare and short. */
 #include "reader/number.h"
 
+#include "math/digits.h"
+
 #include <float.h>
-#include <stdbool.h>
-#include <stdint.h>
 #include <string.h>
 
 typedef struct Decimal {
@@ -216,42 +216,15 @@ static double convert(const Decimal *decimal, int64_t point_exponent) {
     return convert_exact(decimal, point_exponent);
 }
 
-static bool is_digit(char c) { return (unsigned char)(c - '0') <= 9; }
-
 /* ---------------------------------------------------------------- eight digits at once */
 
-#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ &&                        \
-    defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD == 0
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD == 0
 
 /* Up to eight characters from p on, the first in the lowest byte; zeros for those behind the end.
  * The text begins at least eight characters before the end. */
 static uint64_t load_eight(const char *p, const char *end) {
-    uint64_t word;
-    if (end - p >= 8) {
-        memcpy(&word, p, 8);
-        return word;
-    }
-    memcpy(&word, end - 8, 8);
-    return p < end ? word >> 8 * (8 - (end - p)) : 0;
-}
-
-/* How many of the eight characters are digits, up to the first that is none, and their value: no
- * loop, whose length could not be foretold. */
-static int read_eight(uint64_t word, uint64_t *value) {
-    const uint64_t ones = UINT64_C(0x0101010101010101);
-    uint64_t digits = word ^ '0' * ones;
-    uint64_t others = ((digits + (0x80 - 10) * ones) | digits) & 0x80 * ones;
-    int count = others == 0 ? 8 : __builtin_ctzll(others) / 8;
-    *value = 0;
-    if (count == 0) return 0;
-    /* With zeros in front; then neighbours together, then pairs, then fours. */
-    digits <<= 8 * (8 - count);
-    digits = digits * 10 + (digits >> 8);
-    const uint64_t pairs = UINT64_C(0x000000ff000000ff);
-    *value = ((digits & pairs) * (100 + (UINT64_C(1000000) << 32)) +
-                 ((digits >> 16) & pairs) * (1 + (UINT64_C(10000) << 32))) >>
-             32;
-    return count;
+    if (end - p >= 8) return gi_digits_load(p);
+    return p < end ? gi_digits_load(end - 8) >> 8 * (8 - (end - p)) : 0;
 }
 
 /* A number of at most eight digits before the point and eight behind it, without an exponent:
@@ -264,18 +237,18 @@ static bool read_plain(const char *text, size_t size, double *value, size_t *use
     /* Few and often as many as last time, so that this loop is quicker than eight at once. */
     const char *first = p;
     uint64_t digits = 0;
-    while (p - text < 8 && is_digit(*p)) digits = digits * 10 + (uint64_t)(*p++ - '0');
+    while (p - text < 8 && gi_is_digit(*p)) digits = digits * 10 + (uint64_t)(*p++ - '0');
     int count = (int)(p - first), places = 0;
     if (p < end && *p == '.') {
         static const uint32_t shifts[] = {
             1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
         uint64_t fraction;
         p++;
-        places = read_eight(load_eight(p, end), &fraction);
+        places = gi_digits_eight(load_eight(p, end), &fraction);
         p += places;
         digits = digits * shifts[places] + fraction;
     }
-    bool more = p < end && (is_digit(*p) || *p == 'e' || *p == 'E');
+    bool more = p < end && (gi_is_digit(*p) || *p == 'e' || *p == 'E');
     if (more || count + places == 0 || digits > UINT64_C(1) << 53) return false;
     static const double signs[] = {1, -1}; /* nobody can foretell a branch on the sign */
     *value = (double)(int64_t)digits / powers[places] * signs[negative];
@@ -307,7 +280,7 @@ GiNumberStatus gi_number_read(const char *text, size_t size, double *value, size
             point = p;
             continue;
         }
-        if (!is_digit(*p)) break;
+        if (!gi_is_digit(*p)) break;
         digit_count++;
         if (decimal.digits == NULL) {
             if (*p == '0') {
@@ -332,9 +305,9 @@ GiNumberStatus gi_number_read(const char *text, size_t size, double *value, size
         const char *q = p + 1;
         bool minus = q < end && *q == '-';
         if (q < end && (*q == '-' || *q == '+')) q++;
-        if (q < end && is_digit(*q)) {
+        if (q < end && gi_is_digit(*q)) {
             int64_t exponent = 0;
-            for (; q < end && is_digit(*q); q++) {
+            for (; q < end && gi_is_digit(*q); q++) {
                 if (exponent < 1000000000) exponent = exponent * 10 + (*q - '0');
             }
             point_exponent += minus ? -exponent : exponent;
