@@ -54,9 +54,8 @@ static void add_camera_ray(Maker *maker, uint32_t x, uint32_t y) {
     GiSurfacePoint at =
         gi_shape_point(&world->shapes, hit.shape, hit.instance, origin, direction, hit.t, true);
     GiVec normal = gi_dot(at.geometric, direction) > 0 ? gi_negate(at.geometric) : at.geometric;
-    maker->found[maker->found_count++] =
-        (Found){rounded(gi_along(at.point, normal, maker->offset)), normal, hit.shape,
-            hit.instance, x, y};
+    maker->found[maker->found_count++] = (Found){
+        rounded(gi_along(at.point, normal, maker->offset)), normal, hit.shape, hit.instance, x, y};
 }
 
 /* What the renderer knows of a shadow ray: the shape it begins beside, and leaves. */

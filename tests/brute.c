@@ -111,3 +111,32 @@ GiTraceRay ray_of_bundle(const GiBundle *bundle, bool any, int i) {
     return (GiTraceRay){origin, gi_sub(bundle->apex, origin), bundle->t_min[i], bundle->end,
         bundle->skip[i], bundle->skip_instance[i]};
 }
+
+void bundle_put_ray(GiBundle *bundle, int i, GiVec o, GiVec d, double t_min) {
+    bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
+    bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
+    bundle->t_min[i] = t_min;
+    bundle->t[i] = INFINITY;
+    bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
+}
+
+int bundle_differs(const Fixture *fixture, const GiKernel *kernel, bool any, GiBundle *bundle) {
+    static GiTraceRay rays[GI_BUNDLE_SIZE];
+    int wrong = 0;
+    for (int i = 0; i < bundle->count; i++) {
+        bundle->t[i] = INFINITY;
+        rays[i] = ray_of_bundle(bundle, any, i);
+    }
+    (any ? kernel->bundle_any : kernel->bundle_closest)(&fixture->world.trace, bundle);
+    for (int i = 0; i < bundle->count; i++) {
+        GiTraceHit hit;
+        bool meets = brute_force(fixture, &rays[i], &hit);
+        bool same = (bundle->shape[i] != GI_SHAPE_NONE) == meets;
+        if (meets && !any) {
+            same &= bundle->shape[i] == hit.shape.bits && bundle->instance[i] == hit.instance;
+            same &= bundle->without_t || memcmp(&bundle->t[i], &hit.t, sizeof hit.t) == 0;
+        }
+        wrong += !same;
+    }
+    return wrong;
+}

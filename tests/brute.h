@@ -28,3 +28,9 @@ bool brute_force(const Fixture *fixture, const GiTraceRay *r, GiTraceHit *hit);
 
 /* Ray i of a bundle that is still to be traced, as one by itself. */
 GiTraceRay ray_of_bundle(const GiBundle *bundle, bool any, int i);
+
+/* Ray i of a bundle, for either use of bundles; what it looks for is without end. */
+void bundle_put_ray(GiBundle *bundle, int i, GiVec origin, GiVec direction, double t_min);
+
+/* Traces the bundle, and counts the rays whose answers are not those of brute force. */
+int bundle_differs(const Fixture *fixture, const GiKernel *kernel, bool any, GiBundle *bundle);

@@ -4,6 +4,7 @@
 
 #include "math/vec.h"
 
+#include <math.h>
 #include <stdint.h>
 
 typedef struct Random {
@@ -31,4 +32,18 @@ static inline GiVec random_vec(Random *random, double low, double high) {
     double y = random_real(random, low, high);
     double z = random_real(random, low, high);
     return gi_vec(x, y, z);
+}
+
+static inline GiVec random_unit(Random *random) {
+    GiVec v;
+    do {
+        v = random_vec(random, -1, 1);
+    } while (gi_length(v) < 0.1);
+    return gi_normalize(v);
+}
+
+/* From a tenth to a billionth, of either sign. */
+static inline double random_tiny(Random *random) {
+    double part = pow(10, -random_real(random, 1, 9));
+    return random_below(random, 2) ? part : -part;
 }

@@ -8,20 +8,6 @@
 #include "test.h"
 
 #include <math.h>
-#include <string.h>
-
-static GiVec unit(Random *random) {
-    GiVec v;
-    do {
-        v = random_vec(random, -1, 1);
-    } while (gi_length(v) < 0.1);
-    return gi_normalize(v);
-}
-
-static double tiny(Random *random) {
-    double part = pow(10, -random_real(random, 1, 9));
-    return random_below(random, 2) ? part : -part;
-}
 
 /* On an edge, a cap, or the wall where its outline is seen from the apex: there the normal (cos f,
  * sin f, -slope) is across the line of sight. */
@@ -30,7 +16,7 @@ static GiVec near_cone(const GiCone *cone, GiVec apex, Random *random) {
     double half = cone->half_height, z = random_real(random, -half, half);
     double angle = random_real(random, 0, 6.3);
     int part = random_below(random, 8);
-    if (part < 3) z = (part == 0 ? -half : half) * (1 + tiny(random));
+    if (part < 3) z = (part == 0 ? -half : half) * (1 + random_tiny(random));
     double radius = cone->radius + cone->slope * z;
     if (part > 2) {
         double across = sqrt(eye.x * eye.x + eye.y * eye.y);
@@ -39,7 +25,7 @@ static GiVec near_cone(const GiCone *cone, GiVec apex, Random *random) {
             angle = atan2(eye.y, eye.x) + (part % 2 ? 1 : -1) * acos(cosine);
         }
     }
-    radius *= 1 + tiny(random);
+    radius *= 1 + random_tiny(random);
     if (part == 0) radius *= random_real(random, 0, 1);
     return gi_add(cone->center, gi_vec(radius * cos(angle), radius * sin(angle), z));
 }
@@ -47,7 +33,7 @@ static GiVec near_cone(const GiCone *cone, GiVec apex, Random *random) {
 /* A point about the surface, and mostly near the outline that is seen from the apex. */
 static GiVec near_outline(
     const Fixture *fixture, GiShapeRef ref, GiVec center, GiVec half, GiVec apex, Random *random) {
-    GiVec d = unit(random);
+    GiVec d = random_unit(random);
     if (gi_shape_kind(ref) == GI_SHAPE_CONE) {
         return near_cone(&fixture->world.shapes.cones[gi_shape_index(ref)], apex, random);
     }
@@ -59,13 +45,13 @@ static GiVec near_outline(
         double height = sine < 1 ? sine : 0;
         GiVec n = gi_add(gi_scale(toward, height), gi_scale(across, sqrt(1 - height * height)));
         if (random_below(random, 4) == 0) n = d;
-        return gi_along(center, n, half.x * (1 + tiny(random)));
+        return gi_along(center, n, half.x * (1 + random_tiny(random)));
     }
     /* On an edge of a box, or a face. */
     double place[3] = {d.x, d.y, d.z};
     int flat = 1 + random_below(random, 2), axis = random_below(random, 3);
     for (int i = 0; i < flat; i++, axis = (axis + 1) % 3) {
-        place[axis] = (place[axis] < 0 ? -1 : 1) * (1 + tiny(random));
+        place[axis] = (place[axis] < 0 ? -1 : 1) * (1 + random_tiny(random));
     }
     return gi_add(center, gi_vec(half.x * place[0], half.y * place[1], half.z * place[2]));
 }
@@ -74,46 +60,28 @@ static void fill(const Fixture *fixture, GiVec center, GiVec half, bool small, b
     GiBundle *bundle, Random *random) {
     GiShapeRef ref = fixture->things.data[0].ref;
     double distance = pow(10, random_real(random, -1, 3)), size = gi_length(half);
-    bundle->apex = gi_along(center, unit(random), size * (1 + distance));
+    bundle->apex = gi_along(center, random_unit(random), size * (1 + distance));
     bundle->side = gi_vec(0, 0, 0);
     bundle->count = GI_BUNDLE_SIZE;
     bundle->start = 0;
-    bundle->end = random_below(random, 4) ? 1 : 1 + tiny(random) / 2;
+    bundle->end = random_below(random, 4) ? 1 : 1 + random_tiny(random) / 2;
     if (bundle->end > 1) bundle->end = 1;
     /* Where the shape may lie beyond. */
     if (random_below(random, 8) == 0) bundle->end = random_real(random, 0.05, 1);
     bundle->own = false;
     for (int i = 0; i < bundle->count; i++) {
         GiVec p = near_outline(fixture, ref, center, half, bundle->apex, random), o = bundle->apex;
-        if (small && i % 64 == 0) p = gi_along(p, unit(random), 4 * size);
+        if (small && i % 64 == 0) p = gi_along(p, random_unit(random), 4 * size);
         /* Ending before it, in it, or behind it. */
-        double part = random_below(random, 2) ? 1 + tiny(random) : random_real(random, 0.5, 2);
+        double part =
+            random_below(random, 2) ? 1 + random_tiny(random) : random_real(random, 0.5, 2);
         GiVec d = gi_sub(p, o);
         if (any) {
             o = gi_along(o, d, part);
             d = gi_sub(bundle->apex, o);
         }
-        bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
-        bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
-        bundle->t_min[i] = random_below(random, 2) ? 0 : fabs(tiny(random));
-        bundle->t[i] = INFINITY;
-        bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
+        bundle_put_ray(bundle, i, o, d, random_below(random, 2) ? 0 : fabs(random_tiny(random)));
     }
-}
-
-static int differing(const Fixture *fixture, const GiKernel *kernel, bool any, GiBundle *bundle) {
-    static GiTraceRay rays[GI_BUNDLE_SIZE];
-    int wrong = 0;
-    for (int i = 0; i < bundle->count; i++) rays[i] = ray_of_bundle(bundle, any, i);
-    (any ? kernel->bundle_any : kernel->bundle_closest)(&fixture->world.trace, bundle);
-    for (int i = 0; i < bundle->count; i++) {
-        GiTraceHit hit;
-        bool meets = brute_force(fixture, &rays[i], &hit);
-        bool same = (bundle->shape[i] != GI_SHAPE_NONE) == meets;
-        if (meets && !any) same &= memcmp(&bundle->t[i], &hit.t, sizeof hit.t) == 0;
-        wrong += !same;
-    }
-    return wrong;
 }
 
 /* Cylinders, truncated cones, cones with their apex at an end, and with two nappes. */
@@ -163,7 +131,7 @@ static void grazing(GiShapeKind kind, bool small) {
             fill(&fixture, center, half, small, any != 0, &bundle, &random);
             const GiKernel *kernel;
             for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
-                CHECK_INT(differing(&fixture, kernel, any != 0, &bundle), 0);
+                CHECK_INT(bundle_differs(&fixture, kernel, any != 0, &bundle), 0);
             }
         }
         fixture_end(&fixture);

@@ -10,20 +10,6 @@
 #include "test.h"
 
 #include <math.h>
-#include <string.h>
-
-static GiVec unit(Random *random) {
-    GiVec v;
-    do {
-        v = random_vec(random, -1, 1);
-    } while (gi_length(v) < 0.1);
-    return gi_normalize(v);
-}
-
-static double tiny(Random *random) {
-    double part = pow(10, -random_real(random, 1, 9));
-    return random_below(random, 2) ? part : -part;
-}
 
 enum { LAYERS = 4 };
 
@@ -32,16 +18,16 @@ static void add_layers(GiScene *scene, GiVec center, double size, Random *random
     GiVec corner[4];
     mesh_begin(scene);
     double narrow = random_below(random, 3) == 0 ? pow(10, -random_real(random, 0, 5)) : 1;
-    GiVec across = unit(random), up = gi_scale(unit(random), narrow);
+    GiVec across = random_unit(random), up = gi_scale(random_unit(random), narrow);
     for (int k = 0; k < 4; k++) {
         double x = k == 1 || k == 2 ? 1 : -1, y = k >= 2 ? 1 : -1;
         GiVec place = gi_add(gi_scale(across, x), gi_scale(up, y));
         corner[k] = gi_along(center, gi_add(place, random_vec(random, -0.2, 0.2)), size);
     }
-    GiVec away = gi_scale(unit(random), size);
+    GiVec away = gi_scale(random_unit(random), size);
     for (uint32_t layer = 0; layer < LAYERS; layer++) {
-        double step = random_below(random, 4) == 0 ? 0 : tiny(random);
-        double turn = random_below(random, 2) ? tiny(random) : 0;
+        double step = random_below(random, 4) == 0 ? 0 : random_tiny(random);
+        double turn = random_below(random, 2) ? random_tiny(random) : 0;
         for (int k = 0; k < 4; k++) {
             mesh_position(scene, gi_along(corner[k], away, step + turn * k));
         }
@@ -61,8 +47,8 @@ static GiVec corner_of(const Fixture *fixture, uint32_t triangle, int k) {
 /* A point inside of a triangle, near an edge or near a corner. */
 static GiVec point_on(const Fixture *fixture, uint32_t triangle, Random *random) {
     double part[3] = {random_real(random, 0, 1), random_real(random, 0, 1), 0};
-    if (random_below(random, 3) == 0) part[0] = tiny(random);
-    if (random_below(random, 3) == 0) part[1] = tiny(random);
+    if (random_below(random, 3) == 0) part[0] = random_tiny(random);
+    if (random_below(random, 3) == 0) part[1] = random_tiny(random);
     if (part[0] + part[1] > 1) part[0] = 1 - part[0], part[1] = 1 - part[1];
     part[2] = 1 - part[0] - part[1];
     int first = random_below(random, 3);
@@ -76,49 +62,24 @@ static GiVec point_on(const Fixture *fixture, uint32_t triangle, Random *random)
 static void aim(
     const Fixture *fixture, GiVec center, double size, bool any, GiBundle *bundle, Random *random) {
     double distance = pow(10, random_real(random, -0.5, 3));
-    bundle->apex = gi_along(center, unit(random), size * distance);
+    bundle->apex = gi_along(center, random_unit(random), size * distance);
     bundle->side = gi_vec(0, 0, 0);
     bundle->count = GI_BUNDLE_SIZE;
     bundle->start = random_below(random, 2) ? 0 : random_real(random, 0, 1.5);
-    bundle->end = random_below(random, 4) ? 1 : 1 - fabs(tiny(random));
+    bundle->end = random_below(random, 4) ? 1 : 1 - fabs(random_tiny(random));
     bundle->own = false;
     for (int i = 0; i < bundle->count; i++) {
         uint32_t triangle = (uint32_t)random_below(random, 2 * LAYERS);
         GiVec p = point_on(fixture, triangle, random), o = bundle->apex;
-        double part = random_below(random, 2) ? 1 + tiny(random) : random_real(random, 0.5, 2);
+        double part =
+            random_below(random, 2) ? 1 + random_tiny(random) : random_real(random, 0.5, 2);
         GiVec d = gi_sub(p, o);
         if (any) {
             o = gi_along(o, d, part);
             d = gi_sub(bundle->apex, o);
         }
-        bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
-        bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
-        bundle->t_min[i] = random_below(random, 2) ? 0 : fabs(tiny(random));
-        bundle->t[i] = INFINITY;
-        bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
+        bundle_put_ray(bundle, i, o, d, random_below(random, 2) ? 0 : fabs(random_tiny(random)));
     }
-}
-
-/* Against the same with one ray at a time, which looks for nothing certain. */
-static int differing(const Fixture *fixture, const GiKernel *kernel, bool any, GiBundle *bundle) {
-    int wrong = 0;
-    static GiTraceRay rays[GI_BUNDLE_SIZE];
-    for (int i = 0; i < bundle->count; i++) {
-        bundle->t[i] = INFINITY;
-        rays[i] = ray_of_bundle(bundle, any, i);
-    }
-    (any ? kernel->bundle_any : kernel->bundle_closest)(&fixture->world.trace, bundle);
-    for (int i = 0; i < bundle->count; i++) {
-        GiTraceHit hit;
-        bool meets = brute_force(fixture, &rays[i], &hit);
-        bool same = (bundle->shape[i] != GI_SHAPE_NONE) == meets;
-        if (meets && !any) {
-            same &= bundle->shape[i] == hit.shape.bits && bundle->instance[i] == hit.instance;
-            same &= bundle->without_t || memcmp(&bundle->t[i], &hit.t, sizeof hit.t) == 0;
-        }
-        wrong += !same;
-    }
-    return wrong;
 }
 
 static void begin(Fixture *fixture, GiVec center, double size, Random *random) {
@@ -148,7 +109,7 @@ static void triangles_are_grazed(void) {
             bundle.without_t = random_below(&random, 4) == 0;
             const GiKernel *kernel;
             for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
-                CHECK_INT(differing(&fixture, kernel, any != 0, &bundle), 0);
+                CHECK_INT(bundle_differs(&fixture, kernel, any != 0, &bundle), 0);
             }
         }
         fixture_end(&fixture);
@@ -211,11 +172,12 @@ static void triangles_are_left(void) {
         aim(&fixture, center, size, false, &bundle, &random);
         bundle.without_t = random_below(&random, 2) != 0;
         /* A light anywhere, or so low over the triangles that it all but lies in their planes. */
-        GiVec light = gi_along(center, unit(&random), size * pow(10, random_real(&random, -1, 3)));
+        GiVec light =
+            gi_along(center, random_unit(&random), size * pow(10, random_real(&random, -1, 3)));
         if (random_below(&random, 2)) {
             GiVec a = corner_of(&fixture, 0, 0), b = corner_of(&fixture, 0, 1);
-            light = gi_along(gi_along(a, gi_sub(b, a), random_real(&random, 1.1, 9)), unit(&random),
-                size * tiny(&random));
+            light = gi_along(gi_along(a, gi_sub(b, a), random_real(&random, 1.1, 9)),
+                random_unit(&random), size * random_tiny(&random));
         }
         const GiKernel *kernel;
         for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
@@ -241,7 +203,7 @@ static void aim_on_grid(GiBundle *bundle, Random *random) {
     bundle->start = 0;
     bundle->end = 1;
     bundle->own = bundle->without_t = false;
-    GiVec axis = unit(random);
+    GiVec axis = random_unit(random);
     for (bundle->count = 0; bundle->count < 64;) {
         GiVec d = grid_point(random);
         if (random_below(random, 3) == 0) d = random_vec(random, -2, 2);
@@ -249,11 +211,7 @@ static void aim_on_grid(GiBundle *bundle, Random *random) {
         int i = bundle->count++;
         d = gi_scale(d, random_real(random, 0.3, 3)); /* weights are nothing but rounding then */
         GiVec o = gi_along(bundle->apex, d, 2);
-        bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
-        bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
-        bundle->t_min[i] = 0;
-        bundle->t[i] = INFINITY;
-        bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
+        bundle_put_ray(bundle, i, o, d, 0);
     }
 }
 
@@ -276,7 +234,7 @@ static void triangles_are_met_in_their_planes(void) {
             aim_on_grid(&bundle, &random);
             const GiKernel *kernel;
             for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
-                CHECK_INT(differing(&fixture, kernel, any != 0, &bundle), 0);
+                CHECK_INT(bundle_differs(&fixture, kernel, any != 0, &bundle), 0);
             }
         }
         fixture_end(&fixture);

@@ -243,11 +243,7 @@ static void fill_bundle(Worker *worker, const Closed *closed, bool any, Random *
             d = gi_sub(bundle->apex, o);
         }
         worker->rays[i] = ray_of(o, d, any ? 1 : INFINITY);
-        bundle->ox[i] = o.x, bundle->oy[i] = o.y, bundle->oz[i] = o.z;
-        bundle->dx[i] = d.x, bundle->dy[i] = d.y, bundle->dz[i] = d.z;
-        bundle->t_min[i] = 0;
-        bundle->t[i] = INFINITY;
-        bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
+        bundle_put_ray(bundle, i, o, d, 0);
     }
 }
 

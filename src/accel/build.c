@@ -99,7 +99,8 @@ static bool split_to_buckets(Build *build, GiClusters *clusters, const GiRange *
     GiRange stack[STACK_SIZE], sides[2];
     int height = 0;
     bool all = range->end - range->begin == build->count;
-    GiBounds centers = all ? build->extent->centers : gi_centers_of(build->items + range->begin, range->end - range->begin);
+    GiBounds centers = all ? build->extent->centers
+                           : gi_centers_of(build->items + range->begin, range->end - range->begin);
     if (!gi_clusters_make(clusters, build->items, range, &centers)) return false;
     GiRange part = {range->node, 0, (uint32_t)clusters->cluster_count, range->depth};
     for (;;) {

@@ -57,8 +57,8 @@ typedef struct GiBundle {
      * whose directions are not just apex - origin, to the last bit. For closest: those of a
      * parallel camera, which bundle_closest does not trace. */
     bool own;
-    GiVec side; /* a direction the packets are aligned with; zero: none known */
-    bool without_t;
+    GiVec side;     /* a direction the packets are aligned with; zero: none known */
+    bool without_t; /* closest: nobody needs t; see above */
     /* Asked every few thousand exact tests, when it is not null; true: the bundle may stay
      * unfinished. */
     bool (*stop)(const void *context);
