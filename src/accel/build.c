@@ -7,6 +7,7 @@
 
 #include "accel/clusters.h"
 #include "accel/split.h"
+#include "port/machine.h"
 #include "sched/tasks.h"
 
 #include <string.h>
@@ -99,7 +100,8 @@ static bool split_to_buckets(Build *build, GiClusters *clusters, const GiRange *
     GiRange stack[STACK_SIZE], sides[2];
     int height = 0;
     bool all = range->end - range->begin == build->count;
-    GiBounds centers = all ? build->extent->centers : gi_centers_of(build->items + range->begin, range->end - range->begin);
+    GiBounds centers = all ? build->extent->centers
+                           : gi_centers_of(build->items + range->begin, range->end - range->begin);
     if (!gi_clusters_make(clusters, build->items, range, &centers)) return false;
     GiRange part = {range->node, 0, (uint32_t)clusters->cluster_count, range->depth};
     for (;;) {
@@ -201,6 +203,7 @@ GlintStatus gi_build(GiMemory *memory, GiPool *pool, GiBuildItem *items, size_t 
     tree->node_capacity = 2 * count;
     tree->nodes = gi_memory_allocate(memory, tree->node_capacity * sizeof *tree->nodes);
     if (tree->nodes == NULL) return GLINT_ERROR_MEMORY;
+    gi_machine_large_pages(tree->nodes, tree->node_capacity * sizeof *tree->nodes);
     Build build = {.items = items,
         .nodes = tree->nodes,
         .node_count = 1,

@@ -89,7 +89,8 @@ static inline void add_item(GiClusters *clusters, const Grid *grid, GiBuildItem 
 }
 
 /* From four places by turns, as items are put into bins (split.c). */
-bool gi_clusters_make(GiClusters *clusters, GiBuildItem *items, const GiRange *range, const GiBounds *centers) {
+bool gi_clusters_make(
+    GiClusters *clusters, GiBuildItem *items, const GiRange *range, const GiBounds *centers) {
     size_t count = range->end - range->begin, quarter = count / 4;
     items += range->begin;
     Grid grid = choose_grid(centers, count);

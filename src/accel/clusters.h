@@ -29,7 +29,8 @@ typedef struct GiClusters {
 
 /* Finds the clusters of a range of items, whose centres have these bounds. False: all lie in one
  * cell. */
-bool gi_clusters_make(GiClusters *clusters, GiBuildItem *items, const GiRange *range, const GiBounds *centers);
+bool gi_clusters_make(
+    GiClusters *clusters, GiBuildItem *items, const GiRange *range, const GiBounds *centers);
 
 /* How many items clusters begin .. end - 1 are. */
 size_t gi_clusters_weight(const GiClusters *clusters, size_t begin, size_t end);

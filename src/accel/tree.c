@@ -31,7 +31,8 @@ static GlintStatus build(GiMemory *memory, GiPool *pool, const GiShapes *shapes,
     const GiTreeInput *input, const GlintMonitor *monitor, GiItems *items, GiTreeStore *store) {
     GiBuildTree binary;
     size_t count = items->count;
-    GlintStatus status = gi_build(memory, pool, items->items, count, &items->extent, monitor, &binary);
+    GlintStatus status =
+        gi_build(memory, pool, items->items, count, &items->extent, monitor, &binary);
     if (status != GLINT_OK) return status;
     LeafOrder order = {items->items, gi_memory_allocate(memory, count * sizeof *order.refs), 0};
     status = GLINT_ERROR_MEMORY;

@@ -6,6 +6,7 @@
 
 #include "accel/kernel_box.h"
 #include "base/prefetch.h"
+#include "port/machine.h"
 
 #include <math.h>
 
@@ -224,6 +225,12 @@ static void count_leaves(void *context, size_t begin, size_t end, int worker) {
     }
 }
 
+static void *allocate_large(GiMemory *memory, size_t count, size_t size) {
+    void *lines = gi_memory_allocate_lines(memory, count, size);
+    gi_machine_large_pages(lines, count * size);
+    return lines;
+}
+
 static bool allocate(GiMemory *memory, Layout *layout) {
     GiTreeStore *store = layout->store;
     size_t spheres = layout->kinds[GI_CHILD_SPHERES], boxes = layout->kinds[GI_CHILD_BOXES];
@@ -232,9 +239,9 @@ static bool allocate(GiMemory *memory, Layout *layout) {
     store->node_capacity = layout->node_count - store->leaf_count;
     store->sphere_block_capacity = spheres;
     store->box_block_capacity = boxes;
-    store->nodes = gi_memory_allocate_lines(memory, store->node_capacity, sizeof *store->nodes);
-    store->sphere_blocks = gi_memory_allocate_lines(memory, spheres, sizeof *store->sphere_blocks);
-    store->box_blocks = gi_memory_allocate_lines(memory, boxes, sizeof *store->box_blocks);
+    store->nodes = allocate_large(memory, store->node_capacity, sizeof *store->nodes);
+    store->sphere_blocks = allocate_large(memory, spheres, sizeof *store->sphere_blocks);
+    store->box_blocks = allocate_large(memory, boxes, sizeof *store->box_blocks);
     layout->sphere_leaves = gi_memory_allocate_lines(memory, spheres, sizeof(uint32_t));
     layout->box_leaves = gi_memory_allocate_lines(memory, boxes, sizeof(uint32_t));
     return store->nodes != NULL && store->sphere_blocks != NULL && store->box_blocks != NULL &&
