@@ -13,9 +13,9 @@
 #include <string.h>
 
 enum {
-    TASK_SIZE = 4096,
-    BUCKET_CLUSTERS = 32, /* clusters of so few, or so few items, are looked at more closely */
-    BUCKET_ITEMS = 512,
+    TASK_SIZE = 2048,
+    BUCKET_CLUSTERS = 16, /* clusters of so few, or so few items, are looked at more closely */
+    BUCKET_ITEMS = 256,
     SAH_DEPTH_LIMIT = 60, /* deeper, halves are of equal size: the depth stays below 96 */
     STACK_SIZE = 64
 };

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { CELL_ITEMS = 4 }; /* a cell for so many items; on surfaces most cells stay empty */
+enum { CELL_ITEMS = 2 }; /* a cell for so many items; on surfaces most cells stay empty */
 
 /* ---------------------------------------------------------------- the grid */
 
