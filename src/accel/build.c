@@ -7,14 +7,15 @@
 
 #include "accel/clusters.h"
 #include "accel/split.h"
+#include "port/machine.h"
 #include "sched/tasks.h"
 
 #include <string.h>
 
 enum {
-    TASK_SIZE = 4096,
-    BUCKET_CLUSTERS = 32, /* clusters of so few, or so few items, are looked at more closely */
-    BUCKET_ITEMS = 512,
+    TASK_SIZE = 2048,
+    BUCKET_CLUSTERS = 16, /* clusters of so few, or so few items, are looked at more closely */
+    BUCKET_ITEMS = 256,
     SAH_DEPTH_LIMIT = 60, /* deeper, halves are of equal size: the depth stays below 96 */
     STACK_SIZE = 64
 };
@@ -202,6 +203,7 @@ GlintStatus gi_build(GiMemory *memory, GiPool *pool, GiBuildItem *items, size_t 
     tree->node_capacity = 2 * count;
     tree->nodes = gi_memory_allocate(memory, tree->node_capacity * sizeof *tree->nodes);
     if (tree->nodes == NULL) return GLINT_ERROR_MEMORY;
+    gi_machine_large_pages(tree->nodes, tree->node_capacity * sizeof *tree->nodes);
     Build build = {.items = items,
         .nodes = tree->nodes,
         .node_count = 1,

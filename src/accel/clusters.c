@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { CELL_ITEMS = 4 }; /* a cell for so many items; on surfaces most cells stay empty */
+enum { CELL_ITEMS = 2 }; /* a cell for so many items; on surfaces most cells stay empty */
 
 /* ---------------------------------------------------------------- the grid */
 
@@ -133,23 +133,37 @@ void gi_clusters_close(GiClusters *clusters, size_t begin, size_t end, uint32_t 
     }
 }
 
-/* Each item that does not stand in its bucket trades places with the next one that stands there,
- * until one comes that belongs where the first was. */
-void gi_clusters_sort(GiClusters *clusters, GiBuildItem *items) {
-    enum { AHEAD = 4 };
-    uint32_t *heads = clusters->heads;
-    for (size_t bucket = 0; bucket < clusters->bucket_count; bucket++) {
-        while (heads[bucket] < clusters->buckets[bucket].end) {
-            GiBuildItem item = items[heads[bucket]];
-            size_t to = clusters->bucket_of[noted_cluster(&item)];
-            while (to != bucket) {
-                GiBuildItem *place = &items[heads[to]++], next = *place;
-                *place = item;
-                gi_prefetch(place + AHEAD);
-                item = next;
-                to = clusters->bucket_of[noted_cluster(&item)];
-            }
-            items[heads[bucket]++] = item;
+/* An item without a place, and a place without an item. */
+typedef struct Hand {
+    GiBuildItem item;
+    GiBuildItem *hole;
+} Hand;
+
+static inline Hand take(GiBuildItem *place) { return (Hand){*place, place}; }
+
+/* Items from a bucket's places are traded for the next ones in the buckets they belong to, until
+ * such come as belong here. Several hands do that by turns: what one waits for, the others do. */
+static void fill_bucket(GiClusters *clusters, GiBuildItem *items, size_t bucket) {
+    enum { HANDS = 4, AHEAD = 4 };
+    uint32_t *heads = clusters->heads, end = clusters->buckets[bucket].end;
+    Hand hands[HANDS];
+    int count = 0;
+    while (count < HANDS && heads[bucket] < end) hands[count++] = take(&items[heads[bucket]++]);
+    for (int i = 0; count > 0; i = i + 1 < count ? i + 1 : 0) {
+        Hand *hand = &hands[i];
+        size_t to = clusters->bucket_of[noted_cluster(&hand->item)];
+        if (to != bucket) {
+            GiBuildItem *place = &items[heads[to]++], next = *place;
+            *place = hand->item;
+            hand->item = next;
+            gi_prefetch(place + AHEAD);
+        } else {
+            *hand->hole = hand->item;
+            *hand = heads[bucket] < end ? take(&items[heads[bucket]++]) : hands[--count];
         }
     }
+}
+
+void gi_clusters_sort(GiClusters *clusters, GiBuildItem *items) {
+    for (size_t i = 0; i < clusters->bucket_count; i++) fill_bucket(clusters, items, i);
 }

@@ -2,6 +2,7 @@
 #include "accel/items.h"
 
 #include "accel/kernel_box.h"
+#include "port/machine.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -237,6 +238,7 @@ GlintStatus gi_items_make(GiMemory *memory, GiPool *pool, const GiShapes *shapes
     store->tree.center = median_center(shapes, input, count);
     *items = (GiItems){.capacity = count};
     items->items = gi_memory_allocate_lines(memory, count, sizeof *items->items);
+    gi_machine_large_pages(items->items, count * sizeof *items->items);
     Survey *surveys = gi_memory_allocate_lines(memory, workers, sizeof *surveys);
     GlintStatus status = GLINT_ERROR_MEMORY;
     if (items->items != NULL && surveys != NULL) {

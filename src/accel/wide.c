@@ -6,6 +6,7 @@
 
 #include "accel/kernel_box.h"
 #include "base/prefetch.h"
+#include "port/machine.h"
 
 #include <math.h>
 
@@ -19,7 +20,7 @@ typedef struct Layout {
     GiTreeStore *store;
     double scale;
     GiVec center;
-    double root_area;
+    double area;                          /* of all nodes and leaves so far */
     _Atomic size_t kinds[4];              /* how many leaves there are of each */
     uint32_t *sphere_leaves, *box_leaves; /* the leaf of each block */
 } Layout;
@@ -32,21 +33,22 @@ static GiShapeRef item_ref(const Layout *layout, const GiBuildNode *leaf, uint32
 
 /* Spheres, triangles of one mesh, or boxes of anything. */
 static GiChildKind leaf_kind(const Layout *layout, const GiBuildNode *leaf) {
-    GiShapeKind kind = gi_shape_kind(item_ref(layout, leaf, 0));
+    GiShapeRef ref = item_ref(layout, leaf, 0);
+    GiShapeKind kind = gi_shape_kind(ref);
+    uint32_t first = 0, count = GI_SHAPE_INDEX_LIMIT; /* of those that may be in one block */
     if (kind != GI_SHAPE_SPHERE && kind != GI_SHAPE_TRIANGLE) return GI_CHILD_BOXES;
-    for (uint32_t i = 1; i < leaf->count; i++) {
-        if (gi_shape_kind(item_ref(layout, leaf, i)) != kind) return GI_CHILD_BOXES;
+    if (kind == GI_SHAPE_TRIANGLE) {
+        /* Out of the range of single precision the kernels' scale would be, and their products. */
+        if (!(layout->scale > 0x1p-100 && layout->scale < 0x1p100)) return GI_CHILD_BOXES;
+        uint32_t index = gi_shape_mesh(layout->shapes, gi_shape_index(ref));
+        first = layout->shapes->meshes[index].first_triangle;
+        count = layout->shapes->meshes[index].triangle_count;
     }
-    if (kind == GI_SHAPE_SPHERE) return GI_CHILD_SPHERES;
-    /* Out of the range of single precision the kernels' scale would be, and their products. */
-    if (!(layout->scale > 0x1p-100 && layout->scale < 0x1p100)) return GI_CHILD_BOXES;
-    uint32_t first = gi_shape_index(item_ref(layout, leaf, 0));
-    const GiMesh *mesh = &layout->shapes->meshes[gi_shape_mesh(layout->shapes, first)];
+    first = gi_shape_ref(kind, first).bits;
     for (uint32_t i = 1; i < leaf->count; i++) {
-        uint32_t at = gi_shape_index(item_ref(layout, leaf, i)) - mesh->first_triangle;
-        if (at >= mesh->triangle_count) return GI_CHILD_BOXES;
+        if (item_ref(layout, leaf, i).bits - first >= count) return GI_CHILD_BOXES;
     }
-    return GI_CHILD_TRIANGLES;
+    return kind == GI_SHAPE_SPHERE ? GI_CHILD_SPHERES : GI_CHILD_TRIANGLES;
 }
 
 /* Gives a triangle the next place in its mesh. */
@@ -84,17 +86,41 @@ static uint32_t emit_boxes(Layout *layout, uint32_t index) {
 
 /* ---------------------------------------------------------------- nodes */
 
-static void add_cost(Layout *layout, const GiBuildNode *node) {
-    if (layout->root_area > 0) {
-        layout->store->sah_cost += gi_build_area(node->low, node->high) / layout->root_area;
+/* Children of a wide node to be; leaves, which cannot be opened, have the area -1. */
+typedef struct Children {
+    uint32_t nodes[GI_TREE_WIDTH];
+    float areas[GI_TREE_WIDTH];
+    int count;
+} Children;
+
+static inline void set_child(Children *children, int i, const GiBuildNode *nodes, uint32_t index) {
+    const GiBuildNode *node = &nodes[index];
+    children->nodes[i] = index;
+    children->areas[i] = node->count == 0 ? gi_build_area(node->low, node->high) : -1;
+}
+
+/* Opens the inner child of the largest box until there are eight. */
+static void gather_children(const GiBuildNode *nodes, uint32_t parent, Children *children) {
+    int largest = 0;
+    for (children->count = 1;; children->count++) {
+        uint32_t first = nodes[parent].first;
+        set_child(children, largest, nodes, first);
+        set_child(children, children->count, nodes, first + 1);
+        if (children->count + 1 == GI_TREE_WIDTH) break;
+        for (int i = 0; i <= children->count; i++) {
+            if (children->areas[i] > children->areas[largest]) largest = i;
+        }
+        if (children->areas[largest] < 0) break;
+        parent = children->nodes[largest];
     }
+    children->count++;
 }
 
 /* Emits the subtree depth first, so that what is near in space is near in memory. The recursion is
  * at most GI_TREE_DEPTH_LIMIT deep (build.c bounds the depth of the binary tree). */
 static uint32_t emit(Layout *layout, uint32_t index) {
     const GiBuildNode *nodes = layout->nodes;
-    add_cost(layout, &nodes[index]);
+    layout->area += gi_build_area(nodes[index].low, nodes[index].high);
     if (nodes[index].count > 0) {
         const GiBuildNode *leaf = &nodes[index];
         switch (leaf_kind(layout, leaf)) {
@@ -103,36 +129,20 @@ static uint32_t emit(Layout *layout, uint32_t index) {
         default: return emit_boxes(layout, index);
         }
     }
-    /* Open the inner child of the largest box until there are eight. */
-    uint32_t children[GI_TREE_WIDTH] = {nodes[index].first, nodes[index].first + 1};
-    int count = 2;
-    while (count < GI_TREE_WIDTH) {
-        int largest = -1;
-        float largest_area = -1;
-        for (int i = 0; i < count; i++) {
-            const GiBuildNode *child = &nodes[children[i]];
-            float area = gi_build_area(child->low, child->high);
-            if (child->count == 0 && area > largest_area) {
-                largest = i;
-                largest_area = area;
-            }
-        }
-        if (largest < 0) break;
-        uint32_t first = nodes[children[largest]].first;
-        children[largest] = first;
-        children[count++] = first + 1;
-    }
+    Children children;
+    gather_children(nodes, index, &children);
+    int count = children.count;
     uint32_t node_index = layout->store->tree.node_count++;
     GiNode *node = &layout->store->nodes[node_index];
     for (int i = 0; i < GI_TREE_WIDTH; i++) {
         for (int axis = 0; axis < 3; axis++) {
-            node->low[axis][i] = i < count ? nodes[children[i]].low[axis] : INFINITY;
-            node->high[axis][i] = i < count ? nodes[children[i]].high[axis] : -INFINITY;
+            node->low[axis][i] = i < count ? nodes[children.nodes[i]].low[axis] : INFINITY;
+            node->high[axis][i] = i < count ? nodes[children.nodes[i]].high[axis] : -INFINITY;
         }
         node->child[i] = GI_CHILD_NONE;
     }
     for (int i = 0; i < count; i++) {
-        uint32_t child = emit(layout, children[i]);
+        uint32_t child = emit(layout, children.nodes[i]);
         layout->store->nodes[node_index].child[i] = child;
     }
     return node_index;
@@ -224,6 +234,12 @@ static void count_leaves(void *context, size_t begin, size_t end, int worker) {
     }
 }
 
+static void *allocate_large(GiMemory *memory, size_t count, size_t size) {
+    void *lines = gi_memory_allocate_lines(memory, count, size);
+    gi_machine_large_pages(lines, count * size);
+    return lines;
+}
+
 static bool allocate(GiMemory *memory, Layout *layout) {
     GiTreeStore *store = layout->store;
     size_t spheres = layout->kinds[GI_CHILD_SPHERES], boxes = layout->kinds[GI_CHILD_BOXES];
@@ -232,9 +248,9 @@ static bool allocate(GiMemory *memory, Layout *layout) {
     store->node_capacity = layout->node_count - store->leaf_count;
     store->sphere_block_capacity = spheres;
     store->box_block_capacity = boxes;
-    store->nodes = gi_memory_allocate_lines(memory, store->node_capacity, sizeof *store->nodes);
-    store->sphere_blocks = gi_memory_allocate_lines(memory, spheres, sizeof *store->sphere_blocks);
-    store->box_blocks = gi_memory_allocate_lines(memory, boxes, sizeof *store->box_blocks);
+    store->nodes = allocate_large(memory, store->node_capacity, sizeof *store->nodes);
+    store->sphere_blocks = allocate_large(memory, spheres, sizeof *store->sphere_blocks);
+    store->box_blocks = allocate_large(memory, boxes, sizeof *store->box_blocks);
     layout->sphere_leaves = gi_memory_allocate_lines(memory, spheres, sizeof(uint32_t));
     layout->box_leaves = gi_memory_allocate_lines(memory, boxes, sizeof(uint32_t));
     return store->nodes != NULL && store->sphere_blocks != NULL && store->box_blocks != NULL &&
@@ -254,12 +270,13 @@ GlintStatus gi_wide_build(
         .store = store,
         .scale = store->tree.scale,
         .center = store->tree.center,
-        .root_area = gi_build_area(root->low, root->high),
     };
     gi_parallel_for(pool, layout.node_count, 1024, count_leaves, &layout);
     bool allocated = allocate(memory, &layout);
     if (allocated) {
         store->tree.root = emit(&layout, 0);
+        double root_area = gi_build_area(root->low, root->high);
+        if (root_area > 0) store->sah_cost = layout.area / root_area;
         gi_parallel_for(pool, store->tree.sphere_block_count, 128, fill_sphere_blocks, &layout);
         gi_parallel_for(pool, store->tree.box_block_count, 128, fill_box_blocks, &layout);
     }

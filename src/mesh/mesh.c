@@ -25,6 +25,7 @@ static bool reserve(
     if (!gi_size_multiply(wanted, size, &bytes)) return false;
     void *grown = gi_memory_resize(memory, *data, *capacity * size, bytes);
     if (grown == NULL) return false;
+    if (*capacity == 0) gi_machine_large_pages(grown, bytes);
     *data = grown;
     *capacity = wanted;
     return true;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#define _GNU_SOURCE /* sched_getaffinity */
+#define _GNU_SOURCE /* sched_getaffinity, madvise */
 #include "port/machine.h"
 
 #include <sched.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
@@ -26,6 +27,20 @@ size_t gi_machine_memory(void) {
     if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur < size) size = (size_t)limit.rlim_cur;
     size_t group = read_limit("/sys/fs/cgroup/memory.max");
     return group < size ? group : size;
+}
+
+void gi_machine_large_pages(void *memory, size_t size) {
+#ifdef MADV_HUGEPAGE
+    const size_t worth = 4 << 20;
+    if (memory == NULL || size < worth) return;
+    uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
+    /* The first and the last page too, lest the mapping be cut in pieces that cannot be resized. */
+    uintptr_t begin = (uintptr_t)memory / page * page;
+    uintptr_t end = ((uintptr_t)memory + size + page - 1) / page * page;
+    madvise((void *)begin, end - begin, MADV_HUGEPAGE);
+#else
+    (void)memory, (void)size;
+#endif
 }
 
 int gi_machine_core_count(void) {

@@ -2,6 +2,7 @@
 #include "render/reorder.h"
 
 #include "base/prefetch.h"
+#include "port/machine.h"
 
 #include <string.h>
 
@@ -182,6 +183,7 @@ static bool move_rows(GiMemory *memory, GiPool *pool, uint32_t (*rows)[3], const
     size_t size = count * sizeof *rows;
     Rows move = {rows, gi_memory_allocate(memory, size), original, first};
     if (move.old == NULL) return false;
+    gi_machine_large_pages(move.old, size);
     gi_parallel_for(pool, count, PART, keep_rows, &move);
     gi_parallel_for(pool, count, PART, take_rows, &move);
     gi_memory_free(memory, move.old, size);
@@ -270,6 +272,7 @@ static void reorder_vertices(GiMemory *memory, GiPool *pool, const Vertices *ver
     /* All memory first, so that a failure leaves everything as it was. */
     uint32_t *place = gi_memory_allocate(memory, place_size);
     float *copy = gi_memory_allocate(memory, copy_size);
+    gi_machine_large_pages(copy, copy_size);
     if (place != NULL && copy != NULL) {
         place_vertices(vertices, place);
         for (int i = 0; i < vertices->number_count; i++) {
