@@ -47,6 +47,37 @@ static void plain(void) {
     gi_array_free(&loaded.memory, &tape.entries);
 }
 
+/* White space before and behind children is left out, and no other: of what stands in a value,
+ * nothing is. Each text with the kinds of its tokens: start, end, text, numbers. */
+static void blanks(void) {
+    static const char *const cases[][2] = {
+        {"<a>\n <b/>\r\n\t<c></c>\n</a>", "S SE SE E"},
+        {"<a> </a>", "S T E"},
+        {"<a> <!-- -->1<!-- --> </a>", "S T T T E"},
+        {"<a> 1 <b/> 2 </a> ", "S T SE T E"},
+        {"<a><!-- --> <b/><!-- --> <!-- --> </a>", "S SE E"},
+        {"<a>\n <b>\n1 </b>\n</a>", "S S1 E E"},
+    };
+    gi_memory_init(&loaded.memory, NULL, 0);
+    GiTape tape = {0};
+    GiScanStatus status;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *expected = cases[i][1];
+        CHECK_INT(taken(cases[i][0], &status, &tape), strlen(cases[i][0]));
+        for (size_t k = 0; k < tape.entries.count; k++) {
+            GiToken token = tape.entries.data[k].token;
+            expected += *expected == ' ';
+            CHECK(*expected++ == (token.kind == GI_TOKEN_START     ? 'S'
+                                     : token.kind == GI_TOKEN_END  ? 'E'
+                                     : token.kind == GI_TOKEN_TEXT ? 'T'
+                                                                   : '1'));
+            if (token.kind == GI_TOKEN_NUMBERS) k += token.count;
+        }
+        CHECK(*expected == '\0');
+    }
+    gi_array_free(&loaded.memory, &tape.entries);
+}
+
 /* Each is left from the bar on, which is not there. */
 static void strange(void) {
     static const char *const texts[] = {
@@ -202,4 +233,5 @@ static void same_as_expat(void) {
     }
 }
 
-const GiTest tests_scan[] = {TEST(plain), TEST(strange), TEST(same_as_expat), TEST_END};
+const GiTest tests_scan[] = {
+    TEST(plain), TEST(blanks), TEST(strange), TEST(same_as_expat), TEST_END};

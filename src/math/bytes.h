@@ -4,6 +4,8 @@
  * the same results. */
 #pragma once
 
+#include "math/eight.h"
+
 #include <stdint.h>
 
 enum { GI_BYTES = 64 };
@@ -55,10 +57,8 @@ typedef struct GiBytes {
 #define GI_BYTES_HIGH UINT64_C(0x8080808080808080)
 
 static inline GiBytes gi_bytes_load(const char *p) {
-    GiBytes bytes = {{0}};
-    for (int i = 0; i < GI_BYTES; i++) {
-        bytes.part[i / 8] |= (uint64_t)(unsigned char)p[i] << (8 * (i % 8));
-    }
+    GiBytes bytes;
+    for (int i = 0; i < GI_BYTES / 8; i++) bytes.part[i] = gi_eight_load(p + 8 * i);
     return bytes;
 }
 

@@ -3,22 +3,12 @@
  * anything else in a file of numbers, and this way it need not guess. */
 #pragma once
 
+#include "math/eight.h"
+
 #include <stdbool.h>
 #include <stdint.h>
-#include <string.h>
 
 static inline bool gi_is_digit(char c) { return (unsigned char)(c - '0') <= 9; }
-
-/* The eight characters at p, the first in the lowest byte. */
-static inline uint64_t gi_digits_load(const char *p) {
-    uint64_t eight = 0;
-#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    memcpy(&eight, p, sizeof eight);
-#else
-    for (int i = 0; i < 8; i++) eight |= (uint64_t)(unsigned char)p[i] << (8 * i);
-#endif
-    return eight;
-}
 
 /* How many of eight characters are digits, up to the first that is none, and their value: no loop,
  * whose length could not be foretold. */
@@ -45,7 +35,7 @@ static inline const char *gi_digits_read(const char *p, const char *end, uint64_
         1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
     uint64_t number = *value, next;
     while (end - p >= 8) {
-        int count = gi_digits_eight(gi_digits_load(p), &next);
+        int count = gi_digits_eight(gi_eight_load(p), &next);
         number = number * powers[count] + next;
         p += count;
         if (count < 8) {

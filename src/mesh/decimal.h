@@ -41,11 +41,11 @@ static inline const char *gi_decimal_read_plain(const char *text, float *value) 
     int count = (int)(p - first), places = 0;
     if (*p == '.') {
         p++;
-        places = gi_digits_eight(gi_digits_load(p), &more);
+        places = gi_digits_eight(gi_eight_load(p), &more);
         p += places;
         digits = digits * shifts[places] + more;
         if (places == 8) {
-            int rest = gi_digits_eight(gi_digits_load(p), &more);
+            int rest = gi_digits_eight(gi_eight_load(p), &more);
             p += rest;
             places += rest;
             digits = digits * shifts[rest] + more;

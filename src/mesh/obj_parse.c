@@ -273,7 +273,7 @@ static inline bool read_plain_numbers(Parser *parser, Words words, int count, fl
 /* An index of one to seven digits, of something that there is. */
 static inline bool read_plain_index(const char **p, size_t total, uint32_t *index) {
     uint64_t value;
-    int count = gi_digits_eight(gi_digits_load(*p), &value);
+    int count = gi_digits_eight(gi_eight_load(*p), &value);
     *p += count;
     *index = (uint32_t)value - 1;
     return count < 8 && *index < total; /* not without digits either, since -1 is large then */

@@ -313,6 +313,18 @@ const GiType *gi_type_find(GiSpan name, GiKind kind) {
     return NULL;
 }
 
+const GiType *gi_type_guess(GiElementIndex *index, GiSpan name, GiKind kind) {
+    const GiType *type = index->type;
+    if (type == NULL || type->kind != kind || name.size != index->type_size ||
+        !gi_span_equals(name, type->name)) {
+        type = gi_type_find(name, kind);
+        if (type == NULL) return NULL;
+        index->type = type;
+        index->type_size = name.size;
+    }
+    return type;
+}
+
 /* ---------------------------------------------------------------- words */
 
 const char *gi_kind_text(GiKind kind) {

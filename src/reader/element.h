@@ -191,6 +191,8 @@ typedef struct GiElementIndex {
     uint8_t sizes[GI_ELEMENT_LIMIT];      /* of the names */
     uint8_t after[GI_ELEMENT_LIMIT + 1];  /* row + 1 of what came after a row last time */
     uint8_t last;                         /* row + 1 */
+    const GiType *type;                   /* the last that was found, or null */
+    size_t type_size;                     /* of its name */
 } GiElementIndex;
 
 void gi_element_index_init(GiElementIndex *index);
@@ -203,6 +205,9 @@ const GiElement *gi_element_guess(GiElementIndex *index, GiSpan name, GiContexts
 
 /* Name exact, without the package. Null when the kind has no such type. */
 const GiType *gi_type_find(GiSpan name, GiKind kind);
+
+/* The same for the next typed element of a file, mostly of the type of the one before. */
+const GiType *gi_type_guess(GiElementIndex *index, GiSpan name, GiKind kind);
 
 /* "a point", "a surface", ... */
 const char *gi_kind_text(GiKind kind);

@@ -223,8 +223,8 @@ static double convert(const Decimal *decimal, int64_t point_exponent) {
 /* Up to eight characters from p on, the first in the lowest byte; zeros for those behind the end.
  * The text begins at least eight characters before the end. */
 static uint64_t load_eight(const char *p, const char *end) {
-    if (end - p >= 8) return gi_digits_load(p);
-    return p < end ? gi_digits_load(end - 8) >> 8 * (8 - (end - p)) : 0;
+    if (end - p >= 8) return gi_eight_load(p);
+    return p < end ? gi_eight_load(end - 8) >> 8 * (8 - (end - p)) : 0;
 }
 
 /* A number of at most eight digits before the point and eight behind it, without an exponent:

@@ -29,6 +29,7 @@ typedef struct Scan {
     const uint8_t *classes;
     const char *bytes, *end, *fault;
     GiTapeEntry *entry; /* the next of the tape; there is room for a step */
+    GiTokenKind last;   /* the token before it */
     bool out_of_memory;
 } Scan;
 
@@ -94,6 +95,7 @@ static const char *skip_blank(const Scan *scan, const char *p) {
 
 static GiToken *put(Scan *scan, GiTokenKind kind, const char *begin, const char *end) {
     GiToken *token = &scan->entry++->token;
+    scan->last = kind;
     *token = (GiToken){(uint32_t)(begin - scan->bytes), (uint16_t)(end - begin), (uint8_t)kind, 0};
     return token;
 }
@@ -260,11 +262,14 @@ static const char *scan_prologue(Scan *scan, const char *p) {
     }
 }
 
+/* White space before a child or behind one stands where text means nothing, and is left out: most
+ * text is of that kind. */
 static const char *scan_text(Scan *scan, const char *text) {
-    const char *p = skip(scan, text, TEXT);
+    const char *first = skip_blank(scan, text), *p = skip(scan, first, TEXT);
     if (p == NULL) return NULL;
     if (*p != '<' || p - text > TOKEN_LIMIT) return fail(scan, p);
-    put(scan, GI_TOKEN_TEXT, text, p);
+    bool beside_child = scan->last == GI_TOKEN_END || is(scan, p[1], NAME_FIRST);
+    if (p > first || !beside_child) put(scan, GI_TOKEN_TEXT, text, p);
     return p;
 }
 

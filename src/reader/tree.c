@@ -306,7 +306,7 @@ static void read_type(GiReader *reader, GiFrame *frame, const Attributes *attrib
         name = (GiSpan){name.data + i + 1, name.size - i - 1};
         break;
     }
-    frame->type = gi_type_find(name, kind);
+    frame->type = gi_type_guess(&reader->elements, name, kind);
     if (frame->type != NULL) {
         reader->evidence |= frame->type->evidence;
         return;
