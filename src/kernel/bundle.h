@@ -171,6 +171,24 @@ static inline void tile_block(Tile *tile, uint32_t child) {
     tile_noted(tile, tile->test_count);
 }
 
+/* What is certain of the pairs of a block of spheres. Only pairs that are not certain to miss are
+ * kept, and they come first: to ask at once what follows from each would be a question that half of
+ * the time is answered wrong. */
+static inline void balls_verdicts(const Tile *tile, bool any, const Rectangles *rectangles,
+    const Spheres *spheres, Pairs *pairs, Verdict *verdicts) {
+    int count = 0;
+    for (int i = 0; i < pairs->count; i++) {
+        uint32_t pair = pairs->pair[i], lane = pair / GI_PACKET_COUNT;
+        int packet = (int)(pair % GI_PACKET_COUNT);
+        const Ball ball = {spheres->x[lane], spheres->y[lane], spheres->z[lane],
+            spheres->outer[lane], spheres->inner[lane]};
+        verdicts[count] = sphere_verdict(tile, any, &ball, rectangles->near[lane], packet);
+        pairs->pair[count] = pair;
+        count += verdicts[count].maybe != 0;
+    }
+    pairs->count = count;
+}
+
 static inline void tile_balls(Tile *tile, uint32_t child) {
     const GiSphereBlock *block = &tile->tree->sphere_blocks[gi_child_index(child)];
     Rectangles rectangles;
@@ -179,12 +197,15 @@ static inline void tile_balls(Tile *tile, uint32_t child) {
     unsigned bits = tile_spheres(&tile->frustum, block, &rectangles, &spheres);
     Pairs pairs;
     tile_pairs(tile, &rectangles, bits, &pairs);
+    Verdict verdicts[GI_TREE_WIDTH * GI_PACKET_COUNT + 1];
+    if (tile->any) {
+        balls_verdicts(tile, true, &rectangles, &spheres, &pairs, verdicts);
+    } else {
+        balls_verdicts(tile, false, &rectangles, &spheres, &pairs, verdicts);
+    }
     for (int i = 0; i < pairs.count; i++) {
         uint32_t lane = pairs.pair[i] / GI_PACKET_COUNT, packet = pairs.pair[i] % GI_PACKET_COUNT;
-        const Ball ball = {spheres.x[lane], spheres.y[lane], spheres.z[lane], spheres.outer[lane],
-            spheres.inner[lane]};
-        Verdict verdict = sphere_verdict(tile, &ball, rectangles.near[lane], (int)packet);
-        unsigned rays = take_certain(tile, block->shape[lane], (int)packet, verdict);
+        unsigned rays = take_certain(tile, block->shape[lane], (int)packet, verdicts[i]);
         note_solid(tile, GI_SHAPE_SPHERE, (Test){block->shape[lane], packet, rays, true});
     }
     tile_noted(tile, tile->test_count);

@@ -126,13 +126,13 @@ typedef struct Verdict {
 } Verdict;
 
 /* Takes what is certain, which is asked for `any` alone. Returns the bits of rays about which
- * doubles have to decide. */
+ * doubles have to decide. Nearly without a branch: whether there are such rays cannot be foretold.
+ */
 static inline unsigned take_certain(Tile *tile, GiShapeRef ref, int packet, Verdict verdict) {
     unsigned maybe = verdict.maybe & tile->alive[packet];
-    if (!tile->any || maybe == 0) return maybe;
+    if (!tile->any) return maybe;
     maybe &= ~spared_by(tile, ref, packet);
     unsigned sure = verdict.sure & maybe;
-    if (sure == 0) return maybe;
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
         p_fill_where(tile->bundle->shape + packet * GI_PACKET_SIZE + j, sure >> j, ref.bits);
     }
@@ -292,7 +292,7 @@ static inline unsigned tile_spheres(
 }
 
 static inline Verdict sphere_verdict(
-    const Tile *tile, const Ball *ball, float nearest, int packet) {
+    const Tile *tile, bool any, const Ball *ball, float nearest, int packet) {
     const P x = p_of(ball->x), y = p_of(ball->y), z = p_of(ball->z);
     const P outer = p_of(ball->outer), near = p_of(nearest);
     /* Nothing is certain of what may lie before the beginning. */
@@ -308,7 +308,7 @@ static inline Verdict sphere_verdict(
         unsigned maybe =
             p_less_equal(apart, square * outer) & p_less_equal(near, p_load(tile->far + i));
         verdict.maybe |= maybe << j;
-        if (!tile->any) continue;
+        if (!any) continue;
         /* It is met before the point of closest approach, whose depth is along / square. */
         P along = p_fused(a, x, p_fused(b, y, z));
         unsigned sure = p_less_equal(apart, square * inner) &
