@@ -2,11 +2,12 @@
  * Many rays through one point, traced together. Part of kernel.c.
  *
  * In the plane at depth 1 along the bundle's axis w every ray is a point (a, b), sixteen of them (a
- * packet) a rectangle, and all of them a larger rectangle: a frustum of four planes, against which
- * nodes are tested once for all rays. A shape is a rectangle too, with a nearest depth; five
- * comparisons for sixteen packets at once tell which packets it may concern, five more which rays
- * of a packet, and only those are tested exactly. (After Reshetov 2005, Overbeck 2008 and Davidovic
- * 2012.)
+ * packet) a rectangle, sixteen packets (a group) a larger one, and all of them the largest. A
+ * node's children are rectangles too, with a nearest depth; those that no group looks at are left
+ * out, and the others are kept with the bits of the groups that do. So is every shape of a leaf a
+ * rectangle; five comparisons for sixteen packets at once tell which packets it may concern, five
+ * more which rays of a packet, and only those are tested exactly. (After Reshetov 2005, Overbeck
+ * 2008 and Davidovic et al. 2012.)
  *
  *        b |   +---------------- tile
  *          |   | +--+ packet
@@ -16,9 +17,10 @@
  * Staying below the error bound of layout.h: boxes are grown by 2^-19 of their distance from the
  * centre of kernel space; here they are moved so that the apex is the origin, and grown by another
  * 2^-19 of the apex' own distance. Together that is at least 32 roundings of their distance p from
- * the apex. Plane distances and rectangles are sums and quotients of a dozen roundings of p, so
- * they err to the safe side. The rays' own (a, b) are computed in double, rounded once, and
- * compared with rectangles that are widened for it. */
+ * the apex. What they reach along the axes, and the rectangles, are sums and quotients of a dozen
+ * roundings of p, so they err to the safe side. A group's rectangle and depth hold those of its
+ * packets, so what none of the groups looks at concerns no packet. The rays' own (a, b) are
+ * computed in double, rounded once, and compared with rectangles that are widened for it. */
 #pragma once
 
 /* ---------------------------------------------------------------- the walk */
@@ -69,6 +71,14 @@ static inline void tile_flush(Tile *tile) {
     if (changed) tile_refresh_far(tile);
 }
 
+/* A child that is still to be looked at, the depth it begins at, and bits of the groups of packets
+ * that it may concern. */
+typedef struct Entry {
+    uint32_t child;
+    float enter;
+    unsigned groups;
+} Entry;
+
 /* Pairs of one lane of a leaf and a packet. */
 typedef struct Pairs {
     int count;
@@ -79,9 +89,10 @@ typedef struct Pairs {
  * foretold, so each step writes a list without asking, and the next runs down the list: branches
  * that go wrong half of the time would cost more than the work. */
 static inline void tile_pairs(
-    const Tile *tile, const Rectangles *rectangles, unsigned bits, Pairs *pairs) {
+    const Tile *tile, const Rectangles *rectangles, unsigned bits, unsigned groups, Pairs *pairs) {
     int count = 0; /* not in memory, which vectors might be written over */
-    for (int g = 0; g < tile->group_count; g++) {
+    for (; groups != 0; groups &= groups - 1) {
+        int g = lowest_bit(groups);
         unsigned rest = bits & tile_group(&tile->groups, g, rectangles);
         for (; rest != 0; rest &= rest - 1) {
             int lane = lowest_bit(rest);
@@ -119,15 +130,15 @@ static inline void tile_note(Tile *tile, Test test) {
 }
 
 /* The boxes of a block that are large: floors and the like. */
-static inline void block_large(
-    Tile *tile, const GiBoxBlock *block, const Rectangles *rectangles, unsigned bits) {
+static inline void block_large(Tile *tile, const GiBoxBlock *block, const Rectangles *rectangles,
+    unsigned bits, unsigned groups) {
     Boxes boxes;
     for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
         int lane = lowest_bit(rest);
         boxes_look(tile, block, lane, rectangles->near[lane], &boxes);
     }
     Pairs pairs;
-    tile_pairs(tile, rectangles, bits, &pairs);
+    tile_pairs(tile, rectangles, bits, groups, &pairs);
     for (int i = 0; i < pairs.count; i++) {
         int lane = (int)(pairs.pair[i] / GI_PACKET_COUNT);
         int packet = (int)(pairs.pair[i] % GI_PACKET_COUNT);
@@ -139,10 +150,10 @@ static inline void block_large(
 }
 
 /* All other shapes of a block. */
-static inline void block_small(
-    Tile *tile, const GiBoxBlock *block, const Rectangles *rectangles, unsigned bits) {
+static inline void block_small(Tile *tile, const GiBoxBlock *block, const Rectangles *rectangles,
+    unsigned bits, unsigned groups) {
     Pairs pairs;
-    tile_pairs(tile, rectangles, bits, &pairs);
+    tile_pairs(tile, rectangles, bits, groups, &pairs);
     for (int i = 0; i < pairs.count; i++) {
         int lane = (int)(pairs.pair[i] / GI_PACKET_COUNT);
         int packet = (int)(pairs.pair[i] % GI_PACKET_COUNT);
@@ -153,11 +164,11 @@ static inline void block_small(
     }
 }
 
-static inline void tile_block(Tile *tile, uint32_t child) {
-    const GiBoxBlock *block = &tile->tree->box_blocks[gi_child_index(child)];
+static inline void tile_block(Tile *tile, Entry entry) {
+    const GiBoxBlock *block = &tile->tree->box_blocks[gi_child_index(entry.child)];
     Rectangles rectangles;
     COUNT(leaves, 1);
-    unsigned bits = tile_boxes(&tile->frustum, block, &rectangles), large = 0;
+    unsigned bits = tile_boxes(&tile->frustum, block->low, block->high, &rectangles), large = 0;
     for (unsigned rest = bits & tile_wide(&tile->frustum, &rectangles); rest != 0;
          rest &= rest - 1) {
         int lane = lowest_bit(rest);
@@ -166,39 +177,60 @@ static inline void tile_block(Tile *tile, uint32_t child) {
     for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
         prefetch_small(tile, block->shape[lowest_bit(rest)]);
     }
-    if (large != 0) block_large(tile, block, &rectangles, large);
-    block_small(tile, block, &rectangles, bits & ~large);
+    if (large != 0) block_large(tile, block, &rectangles, large, entry.groups);
+    block_small(tile, block, &rectangles, bits & ~large, entry.groups);
     tile_noted(tile, tile->test_count);
 }
 
-static inline void tile_balls(Tile *tile, uint32_t child) {
-    const GiSphereBlock *block = &tile->tree->sphere_blocks[gi_child_index(child)];
+/* What is certain of the pairs of a block of spheres. Only pairs that are not certain to miss are
+ * kept, and they come first: to ask at once what follows from each would be a question that half of
+ * the time is answered wrong. */
+static inline void balls_verdicts(const Tile *tile, bool any, const Rectangles *rectangles,
+    const Spheres *spheres, Pairs *pairs, Verdict *verdicts) {
+    int count = 0;
+    for (int i = 0; i < pairs->count; i++) {
+        uint32_t pair = pairs->pair[i], lane = pair / GI_PACKET_COUNT;
+        int packet = (int)(pair % GI_PACKET_COUNT);
+        const Ball ball = {spheres->x[lane], spheres->y[lane], spheres->z[lane],
+            spheres->outer[lane], spheres->inner[lane]};
+        verdicts[count] = sphere_verdict(tile, any, &ball, rectangles->near[lane], packet);
+        pairs->pair[count] = pair;
+        count += verdicts[count].maybe != 0;
+    }
+    pairs->count = count;
+}
+
+static inline void tile_balls(Tile *tile, Entry entry) {
+    const GiSphereBlock *block = &tile->tree->sphere_blocks[gi_child_index(entry.child)];
     Rectangles rectangles;
     Spheres spheres;
     COUNT(leaves, 1);
     unsigned bits = tile_spheres(&tile->frustum, block, &rectangles, &spheres);
     Pairs pairs;
-    tile_pairs(tile, &rectangles, bits, &pairs);
+    tile_pairs(tile, &rectangles, bits, entry.groups, &pairs);
+    Verdict verdicts[GI_TREE_WIDTH * GI_PACKET_COUNT + 1];
+    if (tile->any) {
+        balls_verdicts(tile, true, &rectangles, &spheres, &pairs, verdicts);
+    } else {
+        balls_verdicts(tile, false, &rectangles, &spheres, &pairs, verdicts);
+    }
     for (int i = 0; i < pairs.count; i++) {
         uint32_t lane = pairs.pair[i] / GI_PACKET_COUNT, packet = pairs.pair[i] % GI_PACKET_COUNT;
-        const Ball ball = {spheres.x[lane], spheres.y[lane], spheres.z[lane], spheres.outer[lane],
-            spheres.inner[lane]};
-        Verdict verdict = sphere_verdict(tile, &ball, rectangles.near[lane], (int)packet);
-        unsigned rays = take_certain(tile, block->shape[lane], (int)packet, verdict);
+        unsigned rays = take_certain(tile, block->shape[lane], (int)packet, verdicts[i]);
         note_solid(tile, GI_SHAPE_SPHERE, (Test){block->shape[lane], packet, rays, true});
     }
     tile_noted(tile, tile->test_count);
 }
 
-static inline void tile_leaf(Tile *tile, uint32_t child) {
+static inline void tile_leaf(Tile *tile, Entry entry) {
     Rectangles rectangles;
     Edges edges;
-    uint32_t first = gi_child_first(child);
+    uint32_t first = gi_child_first(entry.child);
     COUNT(leaves, 1);
     unsigned bits = tile_triangles(&tile->frustum, &tile->shapes->triangles, first,
-        gi_child_count(child), tile->any, &rectangles, &edges);
+        gi_child_count(entry.child), tile->any, &rectangles, &edges);
     Pairs pairs;
-    tile_pairs(tile, &rectangles, bits, &pairs);
+    tile_pairs(tile, &rectangles, bits, entry.groups, &pairs);
     int count = tile->test_count;
     for (int i = 0; i < pairs.count; i++) {
         uint32_t lane = pairs.pair[i] / GI_PACKET_COUNT, packet = pairs.pair[i] % GI_PACKET_COUNT;
@@ -216,7 +248,7 @@ static inline void tile_leaf(Tile *tile, uint32_t child) {
 enum { LEAF_BATCH = 8, LEAF_LAG = 3 };
 typedef struct Leaves {
     int count;
-    StackEntry entry[LEAF_BATCH];
+    Entry entry[LEAF_BATCH];
 } Leaves;
 
 static inline void prefetch_corners(const GiTriangles *triangles, uint32_t child) {
@@ -232,12 +264,12 @@ static inline void tile_leaves(Tile *tile, Leaves *leaves) {
         prefetch_corners(&tile->shapes->triangles, leaves->entry[i].child);
     }
     for (int i = 0; i < leaves->count; i++) {
-        if (leaves->entry[i].enter <= tile->frustum.far) tile_leaf(tile, leaves->entry[i].child);
+        if (leaves->entry[i].enter <= tile->frustum.far) tile_leaf(tile, leaves->entry[i]);
     }
     leaves->count = 0;
 }
 
-static inline void tile_put_off(Tile *tile, StackEntry entry, Leaves *leaves) {
+static inline void tile_put_off(Tile *tile, Entry entry, Leaves *leaves) {
     int ready = leaves->count - LEAF_LAG;
     if (ready >= 0) prefetch_corners(&tile->shapes->triangles, leaves->entry[ready].child);
     leaves->entry[leaves->count++] = entry;
@@ -251,6 +283,36 @@ static inline void tile_close(Tile *tile) {
     }
 }
 
+/* Whether the rectangle of a packet of these groups overlaps that of a box. */
+static inline bool tile_concerns(
+    const Tile *tile, const Rectangles *boxes, int lane, unsigned groups) {
+    unsigned packets = 0;
+    for (; groups != 0 && packets == 0; groups &= groups - 1) {
+        int first = lowest_bit(groups) * GROUP_SIZE;
+        packets = tile_overlaps(&tile->packets, boxes, lane, first);
+    }
+    return packets != 0;
+}
+
+/* Pushes those children that concern a group of packets, the nearest on top. Triangles, whose
+ * corners are all over the memory, are worth a closer look. */
+static inline int tile_push(const Tile *tile, Entry *stack, int count, const GiNode *node,
+    const Rectangles *boxes, unsigned bits) {
+    int first = count;
+    for (; bits != 0; bits &= bits - 1) {
+        int i = lowest_bit(bits);
+        Entry entry = {node->child[i], boxes->near[i], groups_overlaps(&tile->groups, boxes, i)};
+        if (entry.groups == 0) continue;
+        bool triangles = gi_child_kind(entry.child) == GI_CHILD_TRIANGLES;
+        if (triangles && !tile_concerns(tile, boxes, i, entry.groups)) continue;
+        prefetch_child(tile->tree, tile->shapes, entry.child);
+        int at = count++;
+        for (; at > first && stack[at - 1].enter < entry.enter; at--) stack[at] = stack[at - 1];
+        stack[at] = entry;
+    }
+    return count;
+}
+
 static inline void tile_walk(Tile *tile) {
     const GiTree *tree = tile->tree;
     uint32_t packet_count = (uint32_t)(tile->bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
@@ -260,25 +322,26 @@ static inline void tile_walk(Tile *tile) {
         }
         tile_flush(tile);
     }
-    StackEntry stack[STACK_LIMIT];
+    Entry stack[STACK_LIMIT];
     Leaves leaves = {.count = 0};
     int count = 0;
-    if (tree->root != GI_CHILD_NONE) stack[count++] = (StackEntry){tree->root, -INFINITY};
+    const unsigned all = (1u << tile->group_count) - 1;
+    if (tree->root != GI_CHILD_NONE) stack[count++] = (Entry){tree->root, -INFINITY, all};
     while (count > 0 && !tile->stopped) {
-        StackEntry top = stack[--count];
+        Entry top = stack[--count];
         if (!(top.enter <= tile->frustum.far)) continue;
         switch (gi_child_kind(top.child)) {
         case GI_CHILD_NODE: {
             const GiNode *node = &tree->nodes[top.child];
-            float enter[8];
-            unsigned bits = tile_node(&tile->frustum, node, enter);
+            Rectangles boxes;
+            unsigned bits = tile_boxes(&tile->frustum, node->low, node->high, &boxes);
             COUNT(nodes, 1);
-            count = push_children(tree, tile->shapes, stack, count, node->child, bits, enter);
+            count = tile_push(tile, stack, count, node, &boxes, bits);
             break;
         }
         case GI_CHILD_TRIANGLES: tile_put_off(tile, top, &leaves); break;
-        case GI_CHILD_SPHERES: tile_balls(tile, top.child); break;
-        default: tile_block(tile, top.child); break;
+        case GI_CHILD_SPHERES: tile_balls(tile, top); break;
+        default: tile_block(tile, top); break;
         }
     }
     tile_leaves(tile, &leaves);
@@ -340,7 +403,7 @@ static inline void bundle_run(Tile *tile) {
         tile_apex(tile);
         tile->toward = tile->any ? gi_negate(w) : w;
         if (tile->any ? tile_packets(tile, true, u, v) : tile_packets(tile, false, u, v)) {
-            tile_planes(tile, u, v, w);
+            tile_axes(tile, u, v, w);
             tile_walk(tile);
             if (!tile->any && !bundle->without_t) tile_close(tile);
             return;

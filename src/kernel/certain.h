@@ -27,16 +27,19 @@ typedef struct Rectangles {
     float a0[8], a1[8], b0[8], b1[8], near[8];
 } Rectangles;
 
-/* From centres and half extents along u, v, w: (x +- e) / z over all z of the shape, which is
- * farthest out at the nearest or the farthest z. A shape that reaches the apex' own plane covers
- * everything. Returns the bits of those that may concern the tile. */
+/* From where to where shapes reach along u, v, w. */
+typedef struct Reach {
+    F x0, x1, y0, y1, z0, z1;
+} Reach;
+
+/* (x, y) / z over all z of a shape, which is farthest out at the nearest or the farthest z. A
+ * shape that reaches the apex' own plane covers everything. Returns the bits of those that may
+ * concern the tile. */
 static inline unsigned rectangles_of(
-    const Frustum *frustum, int i, const F center[3], const F extent[3], Rectangles *rectangles) {
-    F z0 = center[2] - extent[2], z1 = center[2] + extent[2];
-    F one = f_of(1);
+    const Frustum *frustum, int i, const Reach *reach, Rectangles *rectangles) {
+    const F x0 = reach->x0, x1 = reach->x1, y0 = reach->y0, y1 = reach->y1;
+    const F z0 = reach->z0, z1 = reach->z1, one = f_of(1);
     F near_scale = one / z0, far_scale = one / z1;
-    F x0 = center[0] - extent[0], x1 = center[0] + extent[0];
-    F y0 = center[1] - extent[1], y1 = center[1] + extent[1];
     F a0 = f_min(x0 * near_scale, x0 * far_scale), a1 = f_max(x1 * near_scale, x1 * far_scale);
     F b0 = f_min(y0 * near_scale, y0 * far_scale), b1 = f_max(y1 * near_scale, y1 * far_scale);
     /* Rays have |a|, |b| < 2.3 (tile_packets), so this is more than their rounding. */
@@ -62,23 +65,30 @@ static inline unsigned rectangles_of(
     return ((in & reaching) | around) << i;
 }
 
-static inline unsigned tile_boxes(
-    const Frustum *frustum, const GiBoxBlock *block, Rectangles *rectangles) {
+/* The smallest and the largest value of p . n over boxes. */
+static inline F smallest_dot(const float n[3], const F low[3], const F high[3]) {
+    return frame_dot(
+        n, (n[0] >= 0 ? low : high)[0], (n[1] >= 0 ? low : high)[1], (n[2] >= 0 ? low : high)[2]);
+}
+
+static inline F largest_dot(const float n[3], const F low[3], const F high[3]) {
+    return smallest_dot(n, high, low);
+}
+
+static inline unsigned tile_boxes(const Frustum *frustum, const float lows[3][8],
+    const float highs[3][8], Rectangles *rectangles) {
     unsigned bits = 0;
     for (int i = 0; i < 8; i += GI_FLOATS) {
-        F middle[3], half[3], center[3], extent[3];
+        F low[3], high[3];
         for (int axis = 0; axis < 3; axis++) {
-            F low = f_load(block->low[axis] + i), high = f_load(block->high[axis] + i);
-            middle[axis] = (low + high) * f_of(0.5f) - f_of(frustum->apex[axis]);
-            half[axis] = (high - low) * f_of(0.5f) + f_of(frustum->margin);
+            low[axis] = f_load(lows[axis] + i) - f_of(frustum->apex[axis] + frustum->margin);
+            high[axis] = f_load(highs[axis] + i) - f_of(frustum->apex[axis] - frustum->margin);
         }
-        for (int row = 0; row < 3; row++) {
-            const float *n = frustum->axis[row];
-            const float size[3] = {fabsf(n[0]), fabsf(n[1]), fabsf(n[2])};
-            center[row] = frame_dot(n, middle[0], middle[1], middle[2]);
-            extent[row] = frame_dot(size, half[0], half[1], half[2]);
-        }
-        bits |= rectangles_of(frustum, i, center, extent, rectangles);
+        const float(*axes)[3] = frustum->axis;
+        const Reach reach = {smallest_dot(axes[0], low, high), largest_dot(axes[0], low, high),
+            smallest_dot(axes[1], low, high), largest_dot(axes[1], low, high),
+            smallest_dot(axes[2], low, high), largest_dot(axes[2], low, high)};
+        bits |= rectangles_of(frustum, i, &reach, rectangles);
     }
     return bits;
 }
@@ -93,6 +103,22 @@ static inline unsigned tile_group(const Groups *groups, int g, const Rectangles 
                     f_less_equal(f_of(groups->b0[g]), f_load(shapes->b1 + i)) &
                     f_less_equal(f_load(shapes->near + i), f_of(groups->far[g])))
                 << i;
+    }
+    return bits;
+}
+
+/* Of the groups, bits of those that one shape may concern. */
+static inline unsigned groups_overlaps(const Groups *groups, const Rectangles *shapes, int lane) {
+    const F a0 = f_of(shapes->a0[lane]), a1 = f_of(shapes->a1[lane]), b0 = f_of(shapes->b0[lane]),
+            b1 = f_of(shapes->b1[lane]), near = f_of(shapes->near[lane]);
+    unsigned bits = 0;
+    for (int g = 0; g < GROUP_COUNT; g += GI_FLOATS) {
+        bits |=
+            (f_less_equal(a0, f_load(groups->a1 + g)) & f_less_equal(f_load(groups->a0 + g), a1) &
+                f_less_equal(b0, f_load(groups->b1 + g)) &
+                f_less_equal(f_load(groups->b0 + g), b1) &
+                f_less_equal(near, f_load(groups->far + g)))
+            << g;
     }
     return bits;
 }
@@ -126,13 +152,13 @@ typedef struct Verdict {
 } Verdict;
 
 /* Takes what is certain, which is asked for `any` alone. Returns the bits of rays about which
- * doubles have to decide. */
+ * doubles have to decide. Nearly without a branch: whether there are such rays cannot be foretold.
+ */
 static inline unsigned take_certain(Tile *tile, GiShapeRef ref, int packet, Verdict verdict) {
     unsigned maybe = verdict.maybe & tile->alive[packet];
-    if (!tile->any || maybe == 0) return maybe;
+    if (!tile->any) return maybe;
     maybe &= ~spared_by(tile, ref, packet);
     unsigned sure = verdict.sure & maybe;
-    if (sure == 0) return maybe;
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
         p_fill_where(tile->bundle->shape + packet * GI_PACKET_SIZE + j, sure >> j, ref.bits);
     }
@@ -266,9 +292,11 @@ static inline unsigned tile_spheres(
         x = x - f_of(frustum->apex[0]);
         y = y - f_of(frustum->apex[1]);
         z = z - f_of(frustum->apex[2]);
-        F center[3], extent[3] = {wide, wide, wide};
+        F center[3];
         for (int row = 0; row < 3; row++) center[row] = frame_dot(frustum->axis[row], x, y, z);
-        unsigned in = rectangles_of(frustum, i, center, extent, rectangles);
+        const Reach reach = {center[0] - wide, center[0] + wide, center[1] - wide, center[1] + wide,
+            center[2] - wide, center[2] + wide};
+        unsigned in = rectangles_of(frustum, i, &reach, rectangles);
         bits |= in;
         F slack = (f_size(center[0]) + f_size(center[1]) + f_size(center[2])) * f_of(0x1p-18f);
         F outer = (wide + slack) * f_of(1 + 0x1p-20f);
@@ -292,7 +320,7 @@ static inline unsigned tile_spheres(
 }
 
 static inline Verdict sphere_verdict(
-    const Tile *tile, const Ball *ball, float nearest, int packet) {
+    const Tile *tile, bool any, const Ball *ball, float nearest, int packet) {
     const P x = p_of(ball->x), y = p_of(ball->y), z = p_of(ball->z);
     const P outer = p_of(ball->outer), near = p_of(nearest);
     /* Nothing is certain of what may lie before the beginning. */
@@ -308,7 +336,7 @@ static inline Verdict sphere_verdict(
         unsigned maybe =
             p_less_equal(apart, square * outer) & p_less_equal(near, p_load(tile->far + i));
         verdict.maybe |= maybe << j;
-        if (!tile->any) continue;
+        if (!any) continue;
         /* It is met before the point of closest approach, whose depth is along / square. */
         P along = p_fused(a, x, p_fused(b, y, z));
         unsigned sure = p_less_equal(apart, square * inner) &

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * A bundle of rays as a frustum: its frame and planes, its packets as rectangles, and what of the
- * tree may concern them. Part of kernel.c; bundle.h tells the whole story. */
+ * A bundle of rays as a frustum: its frame, and its rays, packets and groups of
+ * packets as points and rectangles. Part of kernel.c; bundle.h tells the whole story. */
 #pragma once
 
 /* Sixteen roundings: what rays as points, and depths, are widened by. */
@@ -21,7 +21,6 @@ typedef struct Groups {
 typedef struct Frustum {
     float apex[3], margin;
     float axis[3][3]; /* u, v, w as rows */
-    float plane[4][3];
     float a0, a1, b0, b1, far;
     float spread;  /* 1 + |a| + |b|, at most */
     float start;   /* depth from which on nothing is before what the rays look at */
@@ -264,17 +263,6 @@ static inline bool tile_packets(Tile *tile, bool any, GiVec u, GiVec v) {
     return m_bits(oblique) == 0;
 }
 
-/* Outward normals of the four sides: p is outside when p . n > 0. */
-static inline void frustum_planes(Frustum *frustum) {
-    for (int i = 0; i < 3; i++) {
-        float u = frustum->axis[0][i], v = frustum->axis[1][i], w = frustum->axis[2][i];
-        frustum->plane[0][i] = w * frustum->a0 - u;
-        frustum->plane[1][i] = u - w * frustum->a1;
-        frustum->plane[2][i] = w * frustum->b0 - v;
-        frustum->plane[3][i] = v - w * frustum->b1;
-    }
-}
-
 static inline void tile_refresh_far(Tile *tile) {
     Groups *groups = &tile->groups;
     for (int g = 0; g < GROUP_COUNT; g += GI_FLOATS) {
@@ -303,7 +291,6 @@ static inline void tile_enclose(Tile *tile) {
     b = b > fabsf(frustum->b1) ? b : fabsf(frustum->b1);
     frustum->spread = 1 + a + b;
     tile_refresh_far(tile);
-    frustum_planes(frustum);
 }
 
 /* Where the apex is, before anything else. */
@@ -320,7 +307,7 @@ static inline void tile_apex(Tile *tile) {
     frustum->lost = frustum->seen.error < 0x1p100f ? frustum->seen.error : 0x1p100f;
 }
 
-static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
+static inline void tile_axes(Tile *tile, GiVec u, GiVec v, GiVec w) {
     Frustum *frustum = &tile->frustum;
     const GiVec rows[3] = {u, v, w};
     for (int i = 0; i < 3; i++) {
@@ -336,37 +323,4 @@ static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
 /* x * nx + y * ny + z * nz */
 static inline F frame_dot(const float n[3], F x, F y, F z) {
     return f_fused(f_of(n[0]), x, f_fused(f_of(n[1]), y, f_of(n[2]) * z));
-}
-
-/* The smallest and the largest value of p . n over boxes relative to the apex. */
-static inline F smallest_dot(const float n[3], const F low[3], const F high[3]) {
-    return frame_dot(
-        n, (n[0] >= 0 ? low : high)[0], (n[1] >= 0 ? low : high)[1], (n[2] >= 0 ? low : high)[2]);
-}
-
-static inline F largest_dot(const float n[3], const F low[3], const F high[3]) {
-    return frame_dot(
-        n, (n[0] >= 0 ? high : low)[0], (n[1] >= 0 ? high : low)[1], (n[2] >= 0 ? high : low)[2]);
-}
-
-/* Bits of the children whose boxes reach into the frustum; their nearest depths in enter[8]. */
-static inline unsigned tile_node(const Frustum *frustum, const GiNode *node, float enter[8]) {
-    unsigned bits = 0;
-    for (int i = 0; i < 8; i += GI_FLOATS) {
-        F low[3], high[3];
-        for (int axis = 0; axis < 3; axis++) {
-            low[axis] = f_load(node->low[axis] + i) - f_of(frustum->apex[axis] + frustum->margin);
-            high[axis] = f_load(node->high[axis] + i) - f_of(frustum->apex[axis] - frustum->margin);
-        }
-        F nearest = smallest_dot(frustum->axis[2], low, high);
-        F zero = f_of(0);
-        unsigned in = f_less_equal(nearest, f_of(frustum->far));
-        in &= f_less_equal(zero, largest_dot(frustum->axis[2], low, high));
-        for (int plane = 0; plane < 4; plane++) {
-            in &= f_less_equal(smallest_dot(frustum->plane[plane], low, high), zero);
-        }
-        f_store(enter + i, nearest);
-        bits |= in << i;
-    }
-    return bits;
 }

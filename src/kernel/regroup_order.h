@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * The order of regroup.h: sort-tile-recursive packing (Leutenegger, Lopez, Edgington 1997). Rays
  * become points in the plane across their mean direction. Along the longer axis of their cloud they
- * are cut into slabs of equal numbers, and each slab across into groups; first all rays into
- * bundles, then each bundle, along axes of its own, into packets:
+ * are cut into slabs of equal numbers, and each slab across into packets. What makes more than two
+ * bundles is first cut into these, and then each of them along axes of its own:
  *
  *        +---+------+-----+       Every other slab is walked backwards, so that a group which
  *        |   |  >---|---v |       holds the end of one and the beginning of the next is no larger
@@ -17,7 +17,7 @@
 
 enum {
     BUCKETS = 256,    /* that places along an axis are told apart by */
-    SLABS = 16,       /* at most */
+    SLABS = 32,       /* at most */
     SLAB_BUCKETS = 32 /* that a slab is sorted by */
 };
 
@@ -240,6 +240,13 @@ static Turn pack(
     return turn;
 }
 
+/* The direction that groups are aligned with. */
+static GiVec side_of(const Axes *axes, const Turn *turn) {
+    const float *u = axes->u, *v = axes->v;
+    return gi_vec(turn->c * u[0] + turn->s * v[0], turn->c * u[1] + turn->s * v[1],
+        turn->c * u[2] + turn->s * v[2]);
+}
+
 static void pack_bundle(
     GiRegroup *regroup, const Axes *axes, const uint16_t *rays, int count, int begin, GiVec *side) {
     float a[GI_BUNDLE_SIZE + 16] = {0}, b[GI_BUNDLE_SIZE + 16] = {0};
@@ -251,29 +258,30 @@ static void pack_bundle(
     repeat_first(a, b, count);
     const Turn turn = pack(regroup, a, b, count, GI_PACKET_SIZE, order);
     for (int i = 0; i < count; i++) regroup->order[begin + i] = rays[order[i]];
-    const float *u = axes->u, *v = axes->v;
-    *side = gi_vec(turn.c * u[0] + turn.s * v[0], turn.c * u[1] + turn.s * v[1],
-        turn.c * u[2] + turn.s * v[2]);
+    *side = side_of(axes, &turn);
 }
 
 static void GI_KERNEL(regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z,
     int count, int size, double leaves) {
-    uint16_t *bundles = regroup->bundles;
+    const float *a = regroup->a, *b = regroup->b;
+    uint16_t *order = regroup->order, *bundles = regroup->bundles;
+    GiVec *side = regroup->side;
     const Axes axes = axes_of(x, y, z, count);
     if (order_serves(&axes, x, y, z, count, leaves)) {
-        for (int i = 0; i < count; i++) regroup->order[i] = (uint16_t)i;
-        for (int i = 0; i < count; i += size) regroup->side[i / size] = gi_vec(0, 0, 0);
+        for (int i = 0; i < count; i++) order[i] = (uint16_t)i;
+        for (int i = 0; i < count; i += size) side[i / size] = gi_vec(0, 0, 0);
         return;
     }
     project(&axes, x, y, z, count, regroup->a, regroup->b);
-    if (count > size) {
-        repeat_first(regroup->a, regroup->b, count);
-        pack(regroup, regroup->a, regroup->b, count, size, bundles);
-    } else {
-        for (int i = 0; i < count; i++) bundles[i] = (uint16_t)i;
+    repeat_first(regroup->a, regroup->b, count);
+    if (count <= 2 * size) { /* half of the slabs are a bundle as good as any */
+        const Turn turn = pack(regroup, a, b, count, GI_PACKET_SIZE, order);
+        side[0] = side[1] = side_of(&axes, &turn);
+        return;
     }
+    pack(regroup, a, b, count, size, bundles);
     for (int begin = 0; begin < count; begin += size) {
         int rest = count - begin < size ? count - begin : size;
-        pack_bundle(regroup, &axes, bundles + begin, rest, begin, &regroup->side[begin / size]);
+        pack_bundle(regroup, &axes, bundles + begin, rest, begin, &side[begin / size]);
     }
 }

@@ -123,7 +123,7 @@ static inline Verdict small_sphere(const Tile *tile, const GiSphere *sphere, int
     float outer = (solid.half[0] + slack) * (1 + 0x1p-20f);
     float inner = larger(solid.half[0] - slack, 0) * (1 - 0x1p-20f);
     const Ball ball = {p[0], p[1], p[2], outer * outer, inner * inner - 0x1p-100f};
-    return sphere_verdict(tile, &ball, p[2] - solid.half[0] - slack, packet);
+    return sphere_verdict(tile, tile->any, &ball, p[2] - solid.half[0] - slack, packet);
 }
 
 static inline Verdict small_cone(const Tile *tile, const GiCone *cone, int packet) {
