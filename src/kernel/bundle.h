@@ -80,15 +80,18 @@ typedef struct Pairs {
  * that go wrong half of the time would cost more than the work. */
 static inline void tile_pairs(
     const Tile *tile, const Rectangles *rectangles, unsigned bits, Pairs *pairs) {
+    uint64_t groups = 0; /* a bit for each lane and group that overlap */
+    for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
+        int lane = lowest_bit(rest);
+        groups |= (uint64_t)tile_groups(&tile->groups, rectangles, lane) << lane * GROUP_COUNT;
+    }
     int count = 0; /* not in memory, which vectors might be written over */
-    for (int g = 0; g < tile->group_count; g++) {
-        unsigned rest = bits & tile_group(&tile->groups, g, rectangles);
-        for (; rest != 0; rest &= rest - 1) {
-            int lane = lowest_bit(rest);
-            unsigned packets = tile_overlaps(&tile->packets, rectangles, lane, g * GROUP_SIZE);
-            count += sixteen_append(
-                pairs->pair + count, packets, (uint32_t)(lane * GI_PACKET_COUNT + g * GROUP_SIZE));
-        }
+    for (; groups != 0; groups &= groups - 1) {
+        int bit = lowest_bit_of(groups), lane = bit / GROUP_COUNT;
+        int first = bit % GROUP_COUNT * GROUP_SIZE;
+        unsigned packets = tile_overlaps(&tile->packets, rectangles, lane, first);
+        count += sixteen_append(
+            pairs->pair + count, packets, (uint32_t)(lane * GI_PACKET_COUNT + first));
     }
     pairs->count = count;
 }

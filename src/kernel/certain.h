@@ -83,16 +83,19 @@ static inline unsigned tile_boxes(
     return bits;
 }
 
-/* Of eight shapes, bits of those that may concern the packets of a group. */
-static inline unsigned tile_group(const Groups *groups, int g, const Rectangles *shapes) {
+/* Bits of the groups of packets that one shape may concern. */
+static inline unsigned tile_groups(const Groups *groups, const Rectangles *shapes, int lane) {
+    const F a0 = f_of(shapes->a0[lane]), a1 = f_of(shapes->a1[lane]);
+    const F b0 = f_of(shapes->b0[lane]), b1 = f_of(shapes->b1[lane]);
+    const F near = f_of(shapes->near[lane]);
     unsigned bits = 0;
-    for (int i = 0; i < 8; i += GI_FLOATS) {
-        bits |= (f_less_equal(f_load(shapes->a0 + i), f_of(groups->a1[g])) &
-                    f_less_equal(f_of(groups->a0[g]), f_load(shapes->a1 + i)) &
-                    f_less_equal(f_load(shapes->b0 + i), f_of(groups->b1[g])) &
-                    f_less_equal(f_of(groups->b0[g]), f_load(shapes->b1 + i)) &
-                    f_less_equal(f_load(shapes->near + i), f_of(groups->far[g])))
-                << i;
+    for (int g = 0; g < GROUP_COUNT; g += GI_FLOATS) {
+        bits |=
+            (f_less_equal(a0, f_load(groups->a1 + g)) & f_less_equal(f_load(groups->a0 + g), a1) &
+                f_less_equal(b0, f_load(groups->b1 + g)) &
+                f_less_equal(f_load(groups->b0 + g), b1) &
+                f_less_equal(near, f_load(groups->far + g)))
+            << g;
     }
     return bits;
 }

@@ -72,7 +72,6 @@ typedef struct Tile {
                                        of the bundle, but their t is not worked out yet */
     Packets packets;
     Groups groups;
-    int group_count; /* that have rays */
     Frustum frustum;
     double scale;
     GiVec toward; /* along the rays: w, or for any its opposite */
@@ -115,7 +114,6 @@ static inline void packet_clear(Packets *packets, int k) {
 /* Rays that fill up the last packet: copies of the first that look for nothing. */
 static inline void tile_pad(Tile *tile) {
     GiBundle *bundle = tile->bundle;
-    tile->group_count = (bundle->count - 1) / (GROUP_SIZE * GI_PACKET_SIZE) + 1;
     int end = (bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE * GI_PACKET_SIZE;
     for (int i = bundle->count; i < end; i++) {
         if (!tile->any || bundle->own) {

@@ -56,6 +56,7 @@
 #define NOINLINE __attribute__((noinline))
 static inline void prefetch(const void *p) { __builtin_prefetch(p); }
 static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
+static inline int lowest_bit_of(uint64_t bits) { return __builtin_ctzll(bits); }
 static inline int bit_count(unsigned bits) { return __builtin_popcount(bits); }
 #else
 #define NOINLINE
@@ -64,6 +65,10 @@ static inline int lowest_bit(unsigned bits) {
     int index = 0;
     while (!(bits >> index & 1)) index++;
     return index;
+}
+static inline int lowest_bit_of(uint64_t bits) {
+    unsigned low = (unsigned)(bits & 0xffffffff);
+    return low != 0 ? lowest_bit(low) : 32 + lowest_bit((unsigned)(bits >> 32));
 }
 static inline int bit_count(unsigned bits) {
     int count = 0;
