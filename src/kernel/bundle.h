@@ -50,7 +50,6 @@ static inline void tile_flush(Tile *tile) {
         SolidTests *list = &tile->solids[kind];
         if (list->count == 0) continue;
         solids += list->count;
-        if (tile->any) solids_look(tile, (GiShapeKind)kind, list);
         test_solids(tile, (GiShapeKind)kind, list->tests, list->count);
         list->count = 0;
     }
@@ -137,30 +136,45 @@ static inline void block_large(
         GiShapeRef ref = block->shape[lane];
         Verdict verdict = box_verdict(tile, &boxes, lane, packet);
         unsigned rays = take_certain(tile, ref, packet, verdict);
-        note_solid(tile, GI_SHAPE_BOX, (Test){ref, (uint32_t)packet, rays, true});
+        note_solid(tile, GI_SHAPE_BOX, (Test){ref, (uint32_t)packet, rays});
     }
 }
 
-/* All other shapes of a block. */
-static inline void block_small(
-    Tile *tile, const GiBoxBlock *block, const Rectangles *rectangles, unsigned bits) {
+/* All other shapes of a block. In most pairs no ray is within the shape's rectangle. What the
+ * verdict is on the others cannot be foretold either, so it is taken without asking. */
+static inline void block_small(Tile *tile, const GiBoxBlock *block, const Rectangles *rectangles,
+    const Solids *solids, unsigned bits) {
     Pairs pairs;
     tile_pairs(tile, rectangles, bits, &pairs);
+    int count = 0;
     for (int i = 0; i < pairs.count; i++) {
-        int lane = (int)(pairs.pair[i] / GI_PACKET_COUNT);
-        int packet = (int)(pairs.pair[i] % GI_PACKET_COUNT);
-        GiShapeRef ref = block->shape[lane];
+        uint32_t pair = pairs.pair[i];
+        int lane = (int)(pair / GI_PACKET_COUNT), packet = (int)(pair % GI_PACKET_COUNT);
         unsigned rays = tile_rays(tile, rectangles, lane, packet);
-        if (tile->any) rays &= ~spared_by(tile, ref, packet);
-        tile_note(tile, (Test){ref, (uint32_t)packet, rays, false});
+        pairs.pair[count] = pair << GI_PACKET_SIZE | rays;
+        count += rays != 0;
+    }
+    for (int i = 0; i < count; i++) {
+        uint32_t pair = pairs.pair[i] >> GI_PACKET_SIZE;
+        int lane = (int)(pair / GI_PACKET_COUNT), packet = (int)(pair % GI_PACKET_COUNT);
+        GiShapeRef ref = block->shape[lane];
+        Verdict verdict = small_verdict(tile, ref, solids, lane, rectangles->near[lane], packet);
+        unsigned rays = pairs.pair[i] & verdict.maybe;
+        if (tile->any) {
+            rays &= tile->alive[packet] & ~spared_by(tile, ref, packet);
+            take_sure(tile, ref, packet, rays & verdict.sure);
+            rays &= ~verdict.sure;
+        }
+        tile_note(tile, (Test){ref, (uint32_t)packet, rays});
     }
 }
 
 static inline void tile_block(Tile *tile, uint32_t child) {
     const GiBoxBlock *block = &tile->tree->box_blocks[gi_child_index(child)];
     Rectangles rectangles;
+    Solids solids;
     COUNT(leaves, 1);
-    unsigned bits = tile_boxes(&tile->frustum, block, &rectangles), large = 0;
+    unsigned bits = tile_boxes(&tile->frustum, block, &rectangles, &solids), large = 0;
     for (unsigned rest = bits & tile_wide(&tile->frustum, &rectangles); rest != 0;
          rest &= rest - 1) {
         int lane = lowest_bit(rest);
@@ -170,7 +184,7 @@ static inline void tile_block(Tile *tile, uint32_t child) {
         prefetch_small(tile, block->shape[lowest_bit(rest)]);
     }
     if (large != 0) block_large(tile, block, &rectangles, large);
-    block_small(tile, block, &rectangles, bits & ~large);
+    block_small(tile, block, &rectangles, &solids, bits & ~large);
     tile_noted(tile, tile->test_count);
 }
 
@@ -188,7 +202,7 @@ static inline void tile_balls(Tile *tile, uint32_t child) {
             spheres.inner[lane]};
         Verdict verdict = sphere_verdict(tile, &ball, rectangles.near[lane], (int)packet);
         unsigned rays = take_certain(tile, block->shape[lane], (int)packet, verdict);
-        note_solid(tile, GI_SHAPE_SPHERE, (Test){block->shape[lane], packet, rays, true});
+        note_solid(tile, GI_SHAPE_SPHERE, (Test){block->shape[lane], packet, rays});
     }
     tile_noted(tile, tile->test_count);
 }
@@ -207,7 +221,7 @@ static inline void tile_leaf(Tile *tile, uint32_t child) {
         uint32_t lane = pairs.pair[i] / GI_PACKET_COUNT, packet = pairs.pair[i] % GI_PACKET_COUNT;
         GiShapeRef ref = gi_shape_ref(GI_SHAPE_TRIANGLE, first + lane);
         unsigned rays = tile_rays_at(tile, ref, &rectangles, &edges, (int)lane, (int)packet);
-        tile->tests[count] = (Test){ref, packet, rays, true};
+        tile->tests[count] = (Test){ref, packet, rays};
         count += rays != 0;
     }
     tile_noted(tile, count);
@@ -259,7 +273,7 @@ static inline void tile_walk(Tile *tile) {
     uint32_t packet_count = (uint32_t)(tile->bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
     for (uint32_t i = 0; i < tree->unbounded_count && !tile->stopped; i++) {
         for (uint32_t k = 0; k < packet_count; k++) {
-            tile->tests[tile->test_count++] = (Test){tree->unbounded[i], k, 0xffff, true};
+            tile->tests[tile->test_count++] = (Test){tree->unbounded[i], k, 0xffff};
         }
         tile_flush(tile);
     }

@@ -62,22 +62,47 @@ static inline unsigned rectangles_of(
     return ((in & reaching) | around) << i;
 }
 
+/* Eight shapes of any kind by their boxes, relative to the apex. */
+typedef struct Solids {
+    float center[3][8], half[3][8]; /* along the axes of the tree, half extents not grown */
+    float seen[3][8];               /* the centre along u, v, w */
+    float end[8];                   /* nothing of the shape is deeper */
+    float reach[8], lost[8];        /* L and `lost` of solid.h */
+} Solids;
+
+/* Rectangles are those of boxes that are grown, as the tree has them. Of solids the growth is taken
+ * back. */
 static inline unsigned tile_boxes(
-    const Frustum *frustum, const GiBoxBlock *block, Rectangles *rectangles) {
+    const Frustum *frustum, const GiBoxBlock *block, Rectangles *rectangles, Solids *solids) {
     unsigned bits = 0;
     for (int i = 0; i < 8; i += GI_FLOATS) {
-        F middle[3], half[3], center[3], extent[3];
+        F middle[3], half[3], center[3], extent[3], largest = f_of(0), reach = f_of(0);
         for (int axis = 0; axis < 3; axis++) {
             F low = f_load(block->low[axis] + i), high = f_load(block->high[axis] + i);
             middle[axis] = (low + high) * f_of(0.5f) - f_of(frustum->apex[axis]);
-            half[axis] = (high - low) * f_of(0.5f) + f_of(frustum->margin);
+            half[axis] = (high - low) * f_of(0.5f);
+            largest = f_max(largest, f_max(f_size(low), f_size(high)));
+            reach = f_max(reach, f_size(middle[axis]) + half[axis]);
+        }
+        const F least = f_of((float)GI_TREE_GROWTH_LEAST);
+        F growth = f_fused(largest, f_of((float)GI_TREE_GROWTH), least);
+        F lost = f_fused(largest, f_of(0x1p-22f), least + f_of(frustum->margin * 0x1p-3f));
+        lost = lost + f_of(frustum->lost);
+        for (int axis = 0; axis < 3; axis++) {
+            f_store(solids->center[axis] + i, middle[axis]);
+            f_store(solids->half[axis] + i, half[axis] - growth);
+            half[axis] = half[axis] + f_of(frustum->margin);
         }
         for (int row = 0; row < 3; row++) {
             const float *n = frustum->axis[row];
             const float size[3] = {fabsf(n[0]), fabsf(n[1]), fabsf(n[2])};
             center[row] = frame_dot(n, middle[0], middle[1], middle[2]);
             extent[row] = frame_dot(size, half[0], half[1], half[2]);
+            f_store(solids->seen[row] + i, center[row]);
         }
+        f_store(solids->end + i, center[2] + extent[2] + lost * f_of(2));
+        f_store(solids->reach + i, reach);
+        f_store(solids->lost + i, lost);
         bits |= rectangles_of(frustum, i, center, extent, rectangles);
     }
     return bits;
@@ -128,6 +153,14 @@ typedef struct Verdict {
     unsigned maybe, sure;
 } Verdict;
 
+/* Of `any`: these rays meet the shape, and look for nothing more. */
+static inline void take_sure(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
+        p_fill_where(tile->bundle->shape + packet * GI_PACKET_SIZE + j, rays >> j, ref.bits);
+    }
+    packet_stop(tile, packet, rays);
+}
+
 /* Takes what is certain, which is asked for `any` alone. Returns the bits of rays about which
  * doubles have to decide. */
 static inline unsigned take_certain(Tile *tile, GiShapeRef ref, int packet, Verdict verdict) {
@@ -135,11 +168,7 @@ static inline unsigned take_certain(Tile *tile, GiShapeRef ref, int packet, Verd
     if (!tile->any || maybe == 0) return maybe;
     maybe &= ~spared_by(tile, ref, packet);
     unsigned sure = verdict.sure & maybe;
-    if (sure == 0) return maybe;
-    for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
-        p_fill_where(tile->bundle->shape + packet * GI_PACKET_SIZE + j, sure >> j, ref.bits);
-    }
-    packet_stop(tile, packet, sure);
+    if (sure != 0) take_sure(tile, ref, packet, sure);
     return maybe & ~sure;
 }
 

@@ -29,12 +29,10 @@ typedef struct Frustum {
     SeenFrom seen; /* triangles, from the apex */
 } Frustum;
 
-/* One shape to be tested against some rays of one packet; known, which matters to solids alone:
- * what is certain of them has been taken already. */
+/* One shape to be tested against some rays of one packet. */
 typedef struct Test {
     GiShapeRef shape;
     uint32_t packet, rays;
-    bool known;
 } Test;
 
 /* As many tests as come together before they are made: their shapes have the time to arrive from
