@@ -95,9 +95,11 @@ static inline unsigned tile_boxes(
         }
         for (int row = 0; row < 3; row++) {
             const float *n = frustum->axis[row];
-            const float size[3] = {fabsf(n[0]), fabsf(n[1]), fabsf(n[2])};
+            const float(*size)[8] = frustum->extent[row];
             center[row] = frame_dot(n, middle[0], middle[1], middle[2]);
-            extent[row] = frame_dot(size, half[0], half[1], half[2]);
+            extent[row] = f_by_kind(size[2], block->shape + i) * half[2];
+            extent[row] = f_fused(f_by_kind(size[1], block->shape + i), half[1], extent[row]);
+            extent[row] = f_fused(f_by_kind(size[0], block->shape + i), half[0], extent[row]);
             f_store(solids->seen[row] + i, center[row]);
         }
         f_store(solids->end + i, center[2] + extent[2] + lost * f_of(2));

@@ -20,7 +20,8 @@ typedef struct Groups {
 
 typedef struct Frustum {
     float apex[3], margin;
-    float axis[3][3]; /* u, v, w as rows */
+    float axis[3][3];      /* u, v, w as rows */
+    float extent[3][3][8]; /* see frustum_extents */
     float plane[4][3];
     float a0, a1, b0, b1, far;
     float spread;  /* 1 + |a| + |b|, at most */
@@ -317,6 +318,20 @@ static inline void tile_apex(Tile *tile) {
     frustum->lost = frustum->seen.error < 0x1p100f ? frustum->seen.error : 0x1p100f;
 }
 
+/* How far a shape reaches along u, v or w is a sum of its box' half extents, of which each counts
+ * for so much, by kind. Spheres, and cones, which stand upright, reach less far than their boxes
+ * do. */
+static inline void frustum_extents(Frustum *frustum, int row) {
+    const float *n = frustum->axis[row];
+    float(*extent)[8] = frustum->extent[row];
+    for (int kind = 0; kind < 8; kind++) {
+        for (int axis = 0; axis < 3; axis++) extent[axis][kind] = fabsf(n[axis]);
+    }
+    extent[0][GI_SHAPE_SPHERE] = 1;
+    extent[0][GI_SHAPE_CONE] = sqrtf(n[0] * n[0] + n[1] * n[1]);
+    extent[1][GI_SHAPE_SPHERE] = extent[1][GI_SHAPE_CONE] = extent[2][GI_SHAPE_SPHERE] = 0;
+}
+
 static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
     Frustum *frustum = &tile->frustum;
     const GiVec rows[3] = {u, v, w};
@@ -325,6 +340,7 @@ static inline void tile_planes(Tile *tile, GiVec u, GiVec v, GiVec w) {
         frustum->axis[i][1] = (float)rows[i].y;
         frustum->axis[i][2] = (float)rows[i].z;
     }
+    for (int row = 0; row < 3; row++) frustum_extents(frustum, row);
     tile_enclose(tile);
 }
 

@@ -129,6 +129,25 @@ static inline unsigned f_less_equal(F a, F b) { return a <= b; }
 static inline unsigned f_less(F a, F b) { return a < b; }
 #endif
 
+/* What a table has for the kinds of GI_FLOATS shapes: their highest four bits, or 7 if these are
+ * more. */
+static inline F f_by_kind(const float table[8], const void *p) {
+#if defined(GI_IS_AVX512) || defined(GI_IS_AVX2)
+    __m256i kind = _mm256_srli_epi32(_mm256_loadu_si256((const __m256i *)p), 28);
+    kind = _mm256_min_epu32(kind, _mm256_set1_epi32(7));
+    return _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), kind);
+#else
+    float lanes[GI_FLOATS];
+    uint32_t refs[GI_FLOATS];
+    memcpy(refs, p, sizeof refs);
+    for (int i = 0; i < GI_FLOATS; i++) {
+        uint32_t kind = refs[i] >> 28;
+        lanes[i] = table[kind < 7 ? kind : 7];
+    }
+    return f_load(lanes);
+#endif
+}
+
 /* The smallest and the largest of the lanes. */
 #if defined(GI_IS_PORTABLE)
 static inline float f_least(F a) { return a; }
