@@ -60,7 +60,9 @@ static void fill(const Fixture *fixture, GiVec center, GiVec half, bool small, b
     GiBundle *bundle, Random *random) {
     GiShapeRef ref = fixture->things.data[0].ref;
     double distance = pow(10, random_real(random, -1, 3)), size = gi_length(half);
-    bundle->apex = gi_along(center, random_unit(random), size * (1 + distance));
+    GiVec from = random_unit(random);
+    if (random_below(random, 2)) from.z *= 4; /* down into cones, as steep as their walls */
+    bundle->apex = gi_along(center, gi_normalize(from), size * (1 + distance));
     bundle->side = gi_vec(0, 0, 0);
     bundle->count = GI_BUNDLE_SIZE;
     bundle->start = 0;
@@ -86,7 +88,7 @@ static void fill(const Fixture *fixture, GiVec center, GiVec half, bool small, b
 
 /* Cylinders, truncated cones, cones with their apex at an end, and with two nappes. */
 static bool add_cone(Fixture *fixture, GiVec center, GiVec half, Random *random, GiShapeRef *ref) {
-    double tip = half.z * random_real(random, -4, 4), height = 2 * half.z;
+    double tip = half.z * random_real(random, -1, 1), height = 2 * half.z;
     int sort = random_below(random, 4);
     if (sort == 0) {
         return gi_scene_add_cylinder(&fixture->scene, center, half.x, height, 0, ref);

@@ -52,7 +52,6 @@ static inline void tile_flush(Tile *tile) {
         SolidTests *list = &tile->solids[kind];
         if (list->count == 0) continue;
         solids += list->count;
-        if (tile->any) solids_look(tile, (GiShapeKind)kind, list);
         test_solids(tile, (GiShapeKind)kind, list->tests, list->count);
         list->count = 0;
     }
@@ -90,16 +89,19 @@ typedef struct Pairs {
  * that go wrong half of the time would cost more than the work. */
 static inline void tile_pairs(
     const Tile *tile, const Rectangles *rectangles, unsigned bits, unsigned groups, Pairs *pairs) {
+    uint64_t pending = 0; /* a bit for each lane and group that overlap */
+    for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
+        int lane = lowest_bit(rest);
+        uint64_t here = groups & groups_overlaps(&tile->groups, rectangles, lane);
+        pending |= here << lane * GROUP_COUNT;
+    }
     int count = 0; /* not in memory, which vectors might be written over */
-    for (; groups != 0; groups &= groups - 1) {
-        int g = lowest_bit(groups);
-        unsigned rest = bits & tile_group(&tile->groups, g, rectangles);
-        for (; rest != 0; rest &= rest - 1) {
-            int lane = lowest_bit(rest);
-            unsigned packets = tile_overlaps(&tile->packets, rectangles, lane, g * GROUP_SIZE);
-            count += sixteen_append(
-                pairs->pair + count, packets, (uint32_t)(lane * GI_PACKET_COUNT + g * GROUP_SIZE));
-        }
+    for (; pending != 0; pending &= pending - 1) {
+        int bit = lowest_bit_of(pending), lane = bit / GROUP_COUNT;
+        int first = bit % GROUP_COUNT * GROUP_SIZE;
+        unsigned packets = tile_overlaps(&tile->packets, rectangles, lane, first);
+        count += sixteen_append(
+            pairs->pair + count, packets, (uint32_t)(lane * GI_PACKET_COUNT + first));
     }
     pairs->count = count;
 }
@@ -145,30 +147,45 @@ static inline void block_large(Tile *tile, const GiBoxBlock *block, const Rectan
         GiShapeRef ref = block->shape[lane];
         Verdict verdict = box_verdict(tile, &boxes, lane, packet);
         unsigned rays = take_certain(tile, ref, packet, verdict);
-        note_solid(tile, GI_SHAPE_BOX, (Test){ref, (uint32_t)packet, rays, true});
+        note_solid(tile, GI_SHAPE_BOX, (Test){ref, (uint32_t)packet, rays});
     }
 }
 
-/* All other shapes of a block. */
+/* All other shapes of a block. In most pairs no ray is within the shape's rectangle. What the
+ * verdict is on the others cannot be foretold either, so it is taken without asking. */
 static inline void block_small(Tile *tile, const GiBoxBlock *block, const Rectangles *rectangles,
-    unsigned bits, unsigned groups) {
+    const Solids *solids, unsigned bits, unsigned groups) {
     Pairs pairs;
     tile_pairs(tile, rectangles, bits, groups, &pairs);
+    int count = 0;
     for (int i = 0; i < pairs.count; i++) {
-        int lane = (int)(pairs.pair[i] / GI_PACKET_COUNT);
-        int packet = (int)(pairs.pair[i] % GI_PACKET_COUNT);
-        GiShapeRef ref = block->shape[lane];
+        uint32_t pair = pairs.pair[i];
+        int lane = (int)(pair / GI_PACKET_COUNT), packet = (int)(pair % GI_PACKET_COUNT);
         unsigned rays = tile_rays(tile, rectangles, lane, packet);
-        if (tile->any) rays &= ~spared_by(tile, ref, packet);
-        tile_note(tile, (Test){ref, (uint32_t)packet, rays, false});
+        pairs.pair[count] = pair << GI_PACKET_SIZE | rays;
+        count += rays != 0;
+    }
+    for (int i = 0; i < count; i++) {
+        uint32_t pair = pairs.pair[i] >> GI_PACKET_SIZE;
+        int lane = (int)(pair / GI_PACKET_COUNT), packet = (int)(pair % GI_PACKET_COUNT);
+        GiShapeRef ref = block->shape[lane];
+        Verdict verdict = small_verdict(tile, ref, solids, lane, rectangles->near[lane], packet);
+        unsigned rays = pairs.pair[i] & verdict.maybe;
+        if (tile->any) {
+            rays &= tile->alive[packet] & ~spared_by(tile, ref, packet);
+            take_sure(tile, ref, packet, rays & verdict.sure);
+            rays &= ~verdict.sure;
+        }
+        tile_note(tile, (Test){ref, (uint32_t)packet, rays});
     }
 }
 
 static inline void tile_block(Tile *tile, Entry entry) {
     const GiBoxBlock *block = &tile->tree->box_blocks[gi_child_index(entry.child)];
     Rectangles rectangles;
+    Solids solids;
     COUNT(leaves, 1);
-    unsigned bits = tile_boxes(&tile->frustum, block->low, block->high, &rectangles), large = 0;
+    unsigned bits = tile_boxes(&tile->frustum, block, &rectangles, &solids), large = 0;
     for (unsigned rest = bits & tile_wide(&tile->frustum, &rectangles); rest != 0;
          rest &= rest - 1) {
         int lane = lowest_bit(rest);
@@ -178,7 +195,7 @@ static inline void tile_block(Tile *tile, Entry entry) {
         prefetch_small(tile, block->shape[lowest_bit(rest)]);
     }
     if (large != 0) block_large(tile, block, &rectangles, large, entry.groups);
-    block_small(tile, block, &rectangles, bits & ~large, entry.groups);
+    block_small(tile, block, &rectangles, &solids, bits & ~large, entry.groups);
     tile_noted(tile, tile->test_count);
 }
 
@@ -217,7 +234,7 @@ static inline void tile_balls(Tile *tile, Entry entry) {
     for (int i = 0; i < pairs.count; i++) {
         uint32_t lane = pairs.pair[i] / GI_PACKET_COUNT, packet = pairs.pair[i] % GI_PACKET_COUNT;
         unsigned rays = take_certain(tile, block->shape[lane], (int)packet, verdicts[i]);
-        note_solid(tile, GI_SHAPE_SPHERE, (Test){block->shape[lane], packet, rays, true});
+        note_solid(tile, GI_SHAPE_SPHERE, (Test){block->shape[lane], packet, rays});
     }
     tile_noted(tile, tile->test_count);
 }
@@ -236,7 +253,7 @@ static inline void tile_leaf(Tile *tile, Entry entry) {
         uint32_t lane = pairs.pair[i] / GI_PACKET_COUNT, packet = pairs.pair[i] % GI_PACKET_COUNT;
         GiShapeRef ref = gi_shape_ref(GI_SHAPE_TRIANGLE, first + lane);
         unsigned rays = tile_rays_at(tile, ref, &rectangles, &edges, (int)lane, (int)packet);
-        tile->tests[count] = (Test){ref, packet, rays, true};
+        tile->tests[count] = (Test){ref, packet, rays};
         count += rays != 0;
     }
     tile_noted(tile, count);
@@ -318,14 +335,14 @@ static inline void tile_walk(Tile *tile) {
     uint32_t packet_count = (uint32_t)(tile->bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
     for (uint32_t i = 0; i < tree->unbounded_count && !tile->stopped; i++) {
         for (uint32_t k = 0; k < packet_count; k++) {
-            tile->tests[tile->test_count++] = (Test){tree->unbounded[i], k, 0xffff, true};
+            tile->tests[tile->test_count++] = (Test){tree->unbounded[i], k, 0xffff};
         }
         tile_flush(tile);
     }
     Entry stack[STACK_LIMIT];
     Leaves leaves = {.count = 0};
     int count = 0;
-    const unsigned all = (1u << tile->group_count) - 1;
+    const unsigned all = (1u << GROUP_COUNT) - 1;
     if (tree->root != GI_CHILD_NONE) stack[count++] = (Entry){tree->root, -INFINITY, all};
     while (count > 0 && !tile->stopped) {
         Entry top = stack[--count];
@@ -334,7 +351,7 @@ static inline void tile_walk(Tile *tile) {
         case GI_CHILD_NODE: {
             const GiNode *node = &tree->nodes[top.child];
             Rectangles boxes;
-            unsigned bits = tile_boxes(&tile->frustum, node->low, node->high, &boxes);
+            unsigned bits = tile_children(&tile->frustum, node, &boxes);
             COUNT(nodes, 1);
             count = tile_push(tile, stack, count, node, &boxes, bits);
             break;

@@ -32,6 +32,11 @@ typedef struct Reach {
     F x0, x1, y0, y1, z0, z1;
 } Reach;
 
+static inline Reach reach_of(const F center[3], const F extent[3]) {
+    return (Reach){center[0] - extent[0], center[0] + extent[0], center[1] - extent[1],
+        center[1] + extent[1], center[2] - extent[2], center[2] + extent[2]};
+}
+
 /* (x, y) / z over all z of a shape, which is farthest out at the nearest or the farthest z. A
  * shape that reaches the apex' own plane covers everything. Returns the bits of those that may
  * concern the tile. */
@@ -75,14 +80,15 @@ static inline F largest_dot(const float n[3], const F low[3], const F high[3]) {
     return smallest_dot(n, high, low);
 }
 
-static inline unsigned tile_boxes(const Frustum *frustum, const float lows[3][8],
-    const float highs[3][8], Rectangles *rectangles) {
+/* A node's children. */
+static inline unsigned tile_children(
+    const Frustum *frustum, const GiNode *node, Rectangles *rectangles) {
     unsigned bits = 0;
     for (int i = 0; i < 8; i += GI_FLOATS) {
         F low[3], high[3];
         for (int axis = 0; axis < 3; axis++) {
-            low[axis] = f_load(lows[axis] + i) - f_of(frustum->apex[axis] + frustum->margin);
-            high[axis] = f_load(highs[axis] + i) - f_of(frustum->apex[axis] - frustum->margin);
+            low[axis] = f_load(node->low[axis] + i) - f_of(frustum->apex[axis] + frustum->margin);
+            high[axis] = f_load(node->high[axis] + i) - f_of(frustum->apex[axis] - frustum->margin);
         }
         const float(*axes)[3] = frustum->axis;
         const Reach reach = {smallest_dot(axes[0], low, high), largest_dot(axes[0], low, high),
@@ -93,16 +99,51 @@ static inline unsigned tile_boxes(const Frustum *frustum, const float lows[3][8]
     return bits;
 }
 
-/* Of eight shapes, bits of those that may concern the packets of a group. */
-static inline unsigned tile_group(const Groups *groups, int g, const Rectangles *shapes) {
+/* Eight shapes of any kind by their boxes, relative to the apex. */
+typedef struct Solids {
+    float center[3][8], half[3][8]; /* along the axes of the tree, half extents not grown */
+    float seen[3][8];               /* the centre along u, v, w */
+    float end[8];                   /* nothing of the shape is deeper */
+    float reach[8], lost[8];        /* L and `lost` of solid.h */
+} Solids;
+
+/* Rectangles are those of boxes that are grown, as the tree has them. Of solids the growth is taken
+ * back. */
+static inline unsigned tile_boxes(
+    const Frustum *frustum, const GiBoxBlock *block, Rectangles *rectangles, Solids *solids) {
     unsigned bits = 0;
     for (int i = 0; i < 8; i += GI_FLOATS) {
-        bits |= (f_less_equal(f_load(shapes->a0 + i), f_of(groups->a1[g])) &
-                    f_less_equal(f_of(groups->a0[g]), f_load(shapes->a1 + i)) &
-                    f_less_equal(f_load(shapes->b0 + i), f_of(groups->b1[g])) &
-                    f_less_equal(f_of(groups->b0[g]), f_load(shapes->b1 + i)) &
-                    f_less_equal(f_load(shapes->near + i), f_of(groups->far[g])))
-                << i;
+        F middle[3], half[3], center[3], extent[3], largest = f_of(0), reach = f_of(0);
+        for (int axis = 0; axis < 3; axis++) {
+            F low = f_load(block->low[axis] + i), high = f_load(block->high[axis] + i);
+            middle[axis] = (low + high) * f_of(0.5f) - f_of(frustum->apex[axis]);
+            half[axis] = (high - low) * f_of(0.5f);
+            largest = f_max(largest, f_max(f_size(low), f_size(high)));
+            reach = f_max(reach, f_size(middle[axis]) + half[axis]);
+        }
+        const F least = f_of((float)GI_TREE_GROWTH_LEAST);
+        F growth = f_fused(largest, f_of((float)GI_TREE_GROWTH), least);
+        F lost = f_fused(largest, f_of(0x1p-22f), least + f_of(frustum->margin * 0x1p-3f));
+        lost = lost + f_of(frustum->lost);
+        for (int axis = 0; axis < 3; axis++) {
+            f_store(solids->center[axis] + i, middle[axis]);
+            f_store(solids->half[axis] + i, half[axis] - growth);
+            half[axis] = half[axis] + f_of(frustum->margin);
+        }
+        for (int row = 0; row < 3; row++) {
+            const float *n = frustum->axis[row];
+            const float(*size)[8] = frustum->extent[row];
+            center[row] = frame_dot(n, middle[0], middle[1], middle[2]);
+            extent[row] = f_by_kind(size[2], block->shape + i) * half[2];
+            extent[row] = f_fused(f_by_kind(size[1], block->shape + i), half[1], extent[row]);
+            extent[row] = f_fused(f_by_kind(size[0], block->shape + i), half[0], extent[row]);
+            f_store(solids->seen[row] + i, center[row]);
+        }
+        f_store(solids->end + i, center[2] + extent[2] + lost * f_of(2));
+        f_store(solids->reach + i, reach);
+        f_store(solids->lost + i, lost);
+        const Reach seen = reach_of(center, extent);
+        bits |= rectangles_of(frustum, i, &seen, rectangles);
     }
     return bits;
 }
@@ -151,6 +192,14 @@ typedef struct Verdict {
     unsigned maybe, sure;
 } Verdict;
 
+/* Of `any`: these rays meet the shape, and look for nothing more. */
+static inline void take_sure(Tile *tile, GiShapeRef ref, int packet, unsigned rays) {
+    for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
+        p_fill_where(tile->bundle->shape + packet * GI_PACKET_SIZE + j, rays >> j, ref.bits);
+    }
+    packet_stop(tile, packet, rays);
+}
+
 /* Takes what is certain, which is asked for `any` alone. Returns the bits of rays about which
  * doubles have to decide. Nearly without a branch: whether there are such rays cannot be foretold.
  */
@@ -159,10 +208,7 @@ static inline unsigned take_certain(Tile *tile, GiShapeRef ref, int packet, Verd
     if (!tile->any) return maybe;
     maybe &= ~spared_by(tile, ref, packet);
     unsigned sure = verdict.sure & maybe;
-    for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
-        p_fill_where(tile->bundle->shape + packet * GI_PACKET_SIZE + j, sure >> j, ref.bits);
-    }
-    packet_stop(tile, packet, sure);
+    take_sure(tile, ref, packet, sure);
     return maybe & ~sure;
 }
 
@@ -294,8 +340,8 @@ static inline unsigned tile_spheres(
         z = z - f_of(frustum->apex[2]);
         F center[3];
         for (int row = 0; row < 3; row++) center[row] = frame_dot(frustum->axis[row], x, y, z);
-        const Reach reach = {center[0] - wide, center[0] + wide, center[1] - wide, center[1] + wide,
-            center[2] - wide, center[2] + wide};
+        const F extent[3] = {wide, wide, wide};
+        const Reach reach = reach_of(center, extent);
         unsigned in = rectangles_of(frustum, i, &reach, rectangles);
         bits |= in;
         F slack = (f_size(center[0]) + f_size(center[1]) + f_size(center[2])) * f_of(0x1p-18f);

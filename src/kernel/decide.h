@@ -224,8 +224,10 @@ static inline void tile_places(Tile *tile) {
     for (int kind = 0; kind < KIND_COUNT; kind++) {
         tile->places[kind] = (Places){(const char *)tile->tree, 0};
     }
-    tile->places[GI_SHAPE_SPHERE] = (Places){(const char *)shapes->spheres, sizeof(GiSphere)};
-    tile->places[GI_SHAPE_BOX] = (Places){(const char *)shapes->boxes, sizeof(GiBox)};
+    if (!tile->any) { /* else it is rarely that more than their boxes is looked at */
+        tile->places[GI_SHAPE_SPHERE] = (Places){(const char *)shapes->spheres, sizeof(GiSphere)};
+        tile->places[GI_SHAPE_BOX] = (Places){(const char *)shapes->boxes, sizeof(GiBox)};
+    }
     tile->places[GI_SHAPE_CONE] = (Places){(const char *)shapes->cones, sizeof(GiCone)};
     tile->places[GI_SHAPE_PLACED] = (Places){(const char *)shapes->placements, sizeof(GiPlacement)};
     tile->places[GI_SHAPE_INSTANCE] = (Places){(const char *)shapes->instances, sizeof(GiInstance)};

@@ -20,7 +20,8 @@ typedef struct Groups {
 
 typedef struct Frustum {
     float apex[3], margin;
-    float axis[3][3]; /* u, v, w as rows */
+    float axis[3][3];      /* u, v, w as rows */
+    float extent[3][3][8]; /* see frustum_extents */
     float a0, a1, b0, b1, far;
     float spread;  /* 1 + |a| + |b|, at most */
     float start;   /* depth from which on nothing is before what the rays look at */
@@ -28,12 +29,10 @@ typedef struct Frustum {
     SeenFrom seen; /* triangles, from the apex */
 } Frustum;
 
-/* One shape to be tested against some rays of one packet; known, which matters to solids alone:
- * what is certain of them has been taken already. */
+/* One shape to be tested against some rays of one packet. */
 typedef struct Test {
     GiShapeRef shape;
     uint32_t packet, rays;
-    bool known;
 } Test;
 
 /* As many tests as come together before they are made: their shapes have the time to arrive from
@@ -71,7 +70,6 @@ typedef struct Tile {
                                        of the bundle, but their t is not worked out yet */
     Packets packets;
     Groups groups;
-    int group_count; /* that have rays */
     Frustum frustum;
     double scale;
     GiVec toward; /* along the rays: w, or for any its opposite */
@@ -114,7 +112,6 @@ static inline void packet_clear(Packets *packets, int k) {
 /* Rays that fill up the last packet: copies of the first that look for nothing. */
 static inline void tile_pad(Tile *tile) {
     GiBundle *bundle = tile->bundle;
-    tile->group_count = (bundle->count - 1) / (GROUP_SIZE * GI_PACKET_SIZE) + 1;
     int end = (bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE * GI_PACKET_SIZE;
     for (int i = bundle->count; i < end; i++) {
         if (!tile->any || bundle->own) {
@@ -307,6 +304,20 @@ static inline void tile_apex(Tile *tile) {
     frustum->lost = frustum->seen.error < 0x1p100f ? frustum->seen.error : 0x1p100f;
 }
 
+/* How far a shape reaches along u, v or w is a sum of its box' half extents, of which each counts
+ * for so much, by kind. Spheres, and cones, which stand upright, reach less far than their boxes
+ * do. */
+static inline void frustum_extents(Frustum *frustum, int row) {
+    const float *n = frustum->axis[row];
+    float(*extent)[8] = frustum->extent[row];
+    for (int kind = 0; kind < 8; kind++) {
+        for (int axis = 0; axis < 3; axis++) extent[axis][kind] = fabsf(n[axis]);
+    }
+    extent[0][GI_SHAPE_SPHERE] = 1;
+    extent[0][GI_SHAPE_CONE] = sqrtf(n[0] * n[0] + n[1] * n[1]);
+    extent[1][GI_SHAPE_SPHERE] = extent[1][GI_SHAPE_CONE] = extent[2][GI_SHAPE_SPHERE] = 0;
+}
+
 static inline void tile_axes(Tile *tile, GiVec u, GiVec v, GiVec w) {
     Frustum *frustum = &tile->frustum;
     const GiVec rows[3] = {u, v, w};
@@ -315,6 +326,7 @@ static inline void tile_axes(Tile *tile, GiVec u, GiVec v, GiVec w) {
         frustum->axis[i][1] = (float)rows[i].y;
         frustum->axis[i][2] = (float)rows[i].z;
     }
+    for (int row = 0; row < 3; row++) frustum_extents(frustum, row);
     tile_enclose(tile);
 }
 

@@ -56,6 +56,7 @@
 #define NOINLINE __attribute__((noinline))
 static inline void prefetch(const void *p) { __builtin_prefetch(p); }
 static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
+static inline int lowest_bit_of(uint64_t bits) { return __builtin_ctzll(bits); }
 static inline int bit_count(unsigned bits) { return __builtin_popcount(bits); }
 #else
 #define NOINLINE
@@ -64,6 +65,10 @@ static inline int lowest_bit(unsigned bits) {
     int index = 0;
     while (!(bits >> index & 1)) index++;
     return index;
+}
+static inline int lowest_bit_of(uint64_t bits) {
+    unsigned low = (unsigned)(bits & 0xffffffff);
+    return low != 0 ? lowest_bit(low) : 32 + lowest_bit((unsigned)(bits >> 32));
 }
 static inline int bit_count(unsigned bits) {
     int count = 0;
@@ -123,6 +128,25 @@ static inline F f_less_fused(F a, F b, F c) { return c - a * b; }
 static inline unsigned f_less_equal(F a, F b) { return a <= b; }
 static inline unsigned f_less(F a, F b) { return a < b; }
 #endif
+
+/* What a table has for the kinds of GI_FLOATS shapes: their highest four bits, or 7 if these are
+ * more. */
+static inline F f_by_kind(const float table[8], const void *p) {
+#if defined(GI_IS_AVX512) || defined(GI_IS_AVX2)
+    __m256i kind = _mm256_srli_epi32(_mm256_loadu_si256((const __m256i *)p), 28);
+    kind = _mm256_min_epu32(kind, _mm256_set1_epi32(7));
+    return _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), kind);
+#else
+    float lanes[GI_FLOATS];
+    uint32_t refs[GI_FLOATS];
+    memcpy(refs, p, sizeof refs);
+    for (int i = 0; i < GI_FLOATS; i++) {
+        uint32_t kind = refs[i] >> 28;
+        lanes[i] = table[kind < 7 ? kind : 7];
+    }
+    return f_load(lanes);
+#endif
+}
 
 /* The smallest and the largest of the lanes. */
 #if defined(GI_IS_PORTABLE)
