@@ -174,7 +174,9 @@ static void faulty_lines(void) {
     static const char *const faults[] = {"v 1 2", "v 1 2 3 4 5 6 7 8", "v 1 2 3x", "v 1 2\x01 3",
         "v 1 2 1e39", "vn 1 2", "vn 1 2 3 4", "vt 1 2 3 4", "vt", "f 1 2 21", "f 1 2 0", "f 1 2",
         "f 1//1 2//2 3//21", "f 1/1 2/2 3/21", "f 1 2 3///1", "f 1 2 3/1/1/1", "f 1 2 12345678",
-        "f 1 2 4294967297", "f 1 2 -21", "f 1 2 3 \\ 4", "vv 1 2 3", "f1 2 3"};
+        "f 1 2 4294967297", "f 1 2 -21", "f 1 2 3 \\ 4", "vv 1 2 3", "f1 2 3",
+        /* the next line is no part of it */
+        "v 1 2\n3", "v 1\n2\n3", "vn 0 0\n1", "vt 0.5\n1"};
     static char text[1 << 14];
     Random random = {29};
     for (size_t k = 0; k < sizeof faults / sizeof faults[0]; k++) {

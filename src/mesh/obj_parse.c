@@ -260,7 +260,8 @@ static inline bool ends_line(const char *p, const char **next) {
 static inline bool read_plain_numbers(Parser *parser, Words words, int count, float *values) {
     const char *word, *word_end = parser->p, *next;
     for (int i = 0; i < count; i++) {
-        if (!next_word(&words, parser->end, &word, &word_end) ||
+        /* What stands on the next line is no number of this one. */
+        if (*word_end == '\n' || !next_word(&words, parser->end, &word, &word_end) ||
             gi_decimal_read_plain(word, &values[i]) != word_end) {
             return false;
         }
