@@ -145,6 +145,7 @@ typedef enum Oddity {
     ON_A_LINE,
     TWO_PLACES,    /* far apart, each as small as single precision allows */
     EVER_SMALLER,  /* toward one corner */
+    HARDLY_APART,  /* on a line, so short that its inverse is nearly infinite */
     SOME_ENORMOUS, /* among small ones */
     HARDLY_FINITE, /* so large that areas are infinite */
     ODDITY_COUNT
@@ -158,6 +159,7 @@ static float odd_center(Oddity oddity, int i, int axis, Random *random) {
     case ON_A_LINE: return axis == 1 ? (float)spread : 0.25f;
     case TWO_PLACES: return (i % 2 == 0 ? -0.9f : 0.9f) + (float)spread * 1e-6f;
     case EVER_SMALLER: return (float)(spread * exp2(-i % 100));
+    case HARDLY_APART: return axis == 1 ? (float)(spread * 2e-36) : 0;
     case HARDLY_FINITE: return (float)(spread * 1e37);
     default: return (float)spread;
     }
@@ -167,6 +169,7 @@ static float odd_size(Oddity oddity, int i, Random *random) {
     double share = random_real(random, 0, 1);
     switch (oddity) {
     case ALL_ALIKE: return 0.01f;
+    case HARDLY_APART: return 0;
     case SOME_ENORMOUS: return i % 100 == 0 ? 0.5f : (float)share * 1e-4f;
     case HARDLY_FINITE: return (float)(share * 1e36);
     default: return (float)share * 1e-3f;

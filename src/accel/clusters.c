@@ -20,12 +20,13 @@ typedef struct Grid {
 /* Where the longest extent has `fineness` cells, the others have as many as make them cubes, or
  * nearly. All are powers of two, so that a grid has a plane in its middle. */
 static Grid make_grid(const GiBounds *centers, const float extent[3], float fineness) {
+    const float least = FLT_MIN * GI_CLUSTER_LIMIT; /* below, the scale might be infinite */
     float longest = fmaxf(extent[0], fmaxf(extent[1], extent[2]));
     float scale[4] = {0}, cells[3] = {1, 1, 1};
     for (int axis = 0; axis < 3; axis++) {
         while (cells[axis] * longest < extent[axis] * fineness) cells[axis] *= 2;
         /* A little less, so that the last centre falls into the last cell. */
-        if (extent[axis] > FLT_MIN * 64) scale[axis] = cells[axis] * 0.9999f / extent[axis];
+        if (extent[axis] > least) scale[axis] = cells[axis] * 0.9999f / extent[axis];
     }
     return (Grid){centers->low, gi_four_load(scale), (int32_t)cells[0],
         (int32_t)(cells[0] * cells[1]), (size_t)(cells[0] * cells[1] * cells[2])};
