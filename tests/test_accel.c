@@ -308,5 +308,29 @@ static void vertex_without_triangle(void) {
     CHECK_INT(atomic_load(&memory.used), 0);
 }
 
+/* So far away, on either side, that their distance is infinite. */
+static void far_away(void) {
+    enum { NEAR = 10, ALL = 20 };
+    GiSphere spheres[ALL];
+    GiShapeRef refs[ALL];
+    for (uint32_t i = 0; i < ALL; i++) {
+        double x = i < NEAR ? (double)i : i % 2 == 0 ? -1e308 : 1e308;
+        spheres[i] = (GiSphere){gi_vec(x, 0, 1), 0.25};
+        refs[i] = gi_shape_ref(GI_SHAPE_SPHERE, i);
+    }
+    const GiShapes shapes = {.spheres = spheres};
+    GiMemory memory;
+    gi_memory_init(&memory, NULL, 0);
+    for (uint32_t first = 0; first <= NEAR; first += NEAR) {
+        const GiTreeInput input = {.refs = refs + first, .ref_count = ALL - first};
+        GiTreeStore store;
+        build_input(&memory, 1, &shapes, &input, &store);
+        CHECK_INT(store.tree.unbounded_count, ALL - NEAR);
+        CHECK_INT(store.tree.root == GI_CHILD_NONE, first == NEAR);
+        gi_tree_free(&memory, &store);
+    }
+    CHECK_INT(atomic_load(&memory.used), 0);
+}
+
 const GiTest tests_accel[] = {TEST(order_of_input), TEST(number_of_threads), TEST(odd_boxes),
-    TEST(vertex_without_triangle), TEST_END};
+    TEST(vertex_without_triangle), TEST(far_away), TEST_END};

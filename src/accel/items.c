@@ -56,7 +56,7 @@ static GiVec median_center(const GiShapes *shapes, const GiTreeInput *input, siz
     for (size_t i = 0; i < count && found < SAMPLE; i += step) {
         Cursor cursor = cursor_at(shapes, input, i);
         GiBox box = gi_shape_bounds(shapes, cursor_next(&cursor), GI_SHAPE_NONE);
-        if (!gi_box_is_finite(&box)) continue;
+        if (!gi_box_is_bounded(&box)) continue;
         samples[0][found] = box.low.x / 2 + box.high.x / 2;
         samples[1][found] = box.low.y / 2 + box.high.y / 2;
         samples[2][found] = box.low.z / 2 + box.high.z / 2;
@@ -73,7 +73,7 @@ static GiVec median_center(const GiShapes *shapes, const GiTreeInput *input, siz
 
 /* What one worker has seen, on cache lines of its own. */
 typedef struct Survey {
-    _Alignas(64) GiBox bounds; /* of what has finite bounds */
+    _Alignas(64) GiBox bounds; /* of what is bounded */
     size_t bounded, unbounded;
     GiExtent extent; /* of the items */
 } Survey;
@@ -123,7 +123,7 @@ static void survey_refs(void *context, size_t begin, size_t end, int worker) {
     GiBox bounds = prepare->surveys[worker].bounds;
     for (size_t i = begin; i < end; i++) {
         GiBox box = gi_shape_bounds(prepare->shapes, prepare->input->refs[i], GI_SHAPE_NONE);
-        if (gi_box_is_finite(&box)) bounds = box_around(&bounds, &box);
+        if (gi_box_is_bounded(&box)) bounds = box_around(&bounds, &box);
     }
     prepare->surveys[worker].bounds = bounds;
 }
@@ -144,7 +144,7 @@ static void survey_vertices(void *context, size_t begin, size_t end, int worker)
 static double scale_of(const GiBox *bounds, GiVec center) {
     double reach = box_is_empty(bounds) ? 0 : gi_box_reach(bounds, center);
     int exponent = 0;
-    if (reach > 0 && isfinite(reach)) frexp(reach, &exponent);
+    if (reach > 0) frexp(reach, &exponent);
     return ldexp(1, exponent < -1000 ? 1000 : -exponent);
 }
 
@@ -169,7 +169,7 @@ static void prepare_items(void *context, size_t begin, size_t end, int worker) {
         GiShapeRef ref = cursor_next(&cursor);
         GiBuildItem *item = &prepare->items[i];
         GiBox bounds = gi_shape_bounds(prepare->shapes, ref, GI_SHAPE_NONE);
-        if (!gi_box_is_finite(&bounds)) {
+        if (!gi_box_is_bounded(&bounds)) {
             item->low[0] = NAN;
             survey.unbounded += !box_is_empty(&bounds);
             continue;
@@ -183,7 +183,7 @@ static void prepare_items(void *context, size_t begin, size_t end, int worker) {
     prepare->surveys[worker] = survey;
 }
 
-/* Drops the items that have no finite box, keeping the order. */
+/* Drops the items that have no bounded box, keeping the order. */
 static void drop_items(GiBuildItem *items, size_t count) {
     size_t kept = 0;
     for (size_t i = 0; i < count; i++) {
@@ -218,7 +218,7 @@ static GlintStatus list_unbounded(
     for (size_t i = 0; i < count; i++) {
         GiShapeRef ref = cursor_next(&cursor);
         GiBox box = gi_shape_bounds(prepare->shapes, ref, GI_SHAPE_NONE);
-        if (gi_box_is_finite(&box) || box_is_empty(&box)) continue;
+        if (gi_box_is_bounded(&box) || box_is_empty(&box)) continue;
         store->unbounded[store->tree.unbounded_count++] = ref;
     }
     return GLINT_OK;

@@ -5,7 +5,7 @@
 #include "accel/bounds.h"
 #include "accel/tree.h"
 
-/* Of all shapes that have a finite box. */
+/* Of all shapes that have a bounded box (kernel_box.h). */
 typedef struct GiItems {
     GiBuildItem *items; /* null where there are none */
     size_t count, capacity;

@@ -10,9 +10,12 @@
 static inline double gi_larger(double a, double b) { return a > b ? a : b; } /* fmax is a call */
 static inline double gi_smaller(double a, double b) { return a < b ? a : b; }
 
-static inline bool gi_box_is_finite(const GiBox *box) {
-    return isfinite(box->low.x) && isfinite(box->low.y) && isfinite(box->low.z) &&
-           isfinite(box->high.x) && isfinite(box->high.y) && isfinite(box->high.z);
+/* Whether a tree can hold a box: it ends, and not so far out that the difference of two places in
+ * such boxes might overflow. What it cannot hold is tested against every ray. */
+static inline bool gi_box_is_bounded(const GiBox *box) {
+    const double limit = 0x1p1000;
+    return fabs(box->low.x) < limit && fabs(box->low.y) < limit && fabs(box->low.z) < limit &&
+           fabs(box->high.x) < limit && fabs(box->high.y) < limit && fabs(box->high.z) < limit;
 }
 
 /* How far a box reaches from the centre along an axis, at most. */
@@ -23,7 +26,7 @@ static inline double gi_box_reach(const GiBox *box, GiVec center) {
     return gi_larger(x, gi_larger(y, z));
 }
 
-/* A shape's finite box in kernel space, grown by the error bound (layout.h). */
+/* A shape's bounded box in kernel space, grown by the error bound (layout.h). */
 static inline GiBounds gi_kernel_box(const GiBox *box, GiVec center, double scale) {
     double growth = GI_TREE_GROWTH * gi_box_reach(box, center) + GI_TREE_GROWTH_LEAST / scale;
     const GiVec reach = {growth, growth, growth};
