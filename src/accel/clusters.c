@@ -157,7 +157,7 @@ static void fill_bucket(GiClusters *clusters, GiBuildItem *items, size_t bucket)
             GiBuildItem *place = &items[heads[to]++], next = *place;
             *place = hand->item;
             hand->item = next;
-            gi_prefetch(place + AHEAD);
+            gi_prefetch_ahead(place, AHEAD * sizeof *place);
         } else {
             *hand->hole = hand->item;
             *hand = heads[bucket] < end ? take(&items[heads[bucket]++]) : hands[--count];

@@ -5,7 +5,6 @@
 #include "accel/split.h"
 
 #include <float.h>
-#include <math.h>
 #include <string.h>
 
 enum {

@@ -6,8 +6,8 @@
 
 #include "base/prefetch.h"
 #include "math/bytes.h"
-#include "mesh/decimal.h"
 #include "math/digits.h"
+#include "mesh/decimal.h"
 
 typedef struct Parser {
     GiObj *obj;
