@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Top down. A large range of items is split by its clusters, many levels at once (clusters.h), a
- * small one item by item (split.h). What is still large after that becomes a task for any worker;
- * below TASK_SIZE a worker finishes alone with a stack of its own, always putting off the larger
- * half, so that the stack stays short. */
+ * small one item by item (split.h). What comes of a large one becomes tasks for any worker, of some
+ * small ranges or one that is still large; below TASK_SIZE a worker finishes alone with a stack of
+ * its own, always putting off the larger half, so that the stack stays short. */
 #include "accel/build.h"
 
 #include "accel/clusters.h"
@@ -14,6 +14,7 @@
 
 enum {
     TASK_SIZE = 2048,
+    TASK_RANGES = 7,      /* that a task takes along, when they are small */
     BUCKET_CLUSTERS = 16, /* clusters of so few, or so few items, are looked at more closely */
     BUCKET_ITEMS = 256,
     SAH_DEPTH_LIMIT = 60, /* deeper, halves are of equal size: the depth stays below 96 */
@@ -31,6 +32,12 @@ typedef struct Build {
     const GiExtent *extent; /* of all items */
     const GlintMonitor *monitor;
 } Build;
+
+/* What a worker takes at once: a large range, or small ones that stand side by side. */
+typedef struct Task {
+    int count;
+    GiRange ranges[TASK_RANGES];
+} Task;
 
 /* ---------------------------------------------------------------- the nodes */
 
@@ -153,32 +160,54 @@ static void finish(Build *build, GiRange range) {
     }
 }
 
-static void hand_on(Build *build, GiTasks *tasks, const GiRange *range, int worker) {
-    size_t count = range->end - range->begin;
-    if (count >= TASK_SIZE && gi_tasks_add(tasks, range)) return;
-    if (!report(build, worker)) return;
+/* False: to stop. */
+static bool finish_range(Build *build, const GiRange *range, int worker) {
+    if (!report(build, worker)) return false;
     finish(build, *range);
+    size_t count = range->end - range->begin;
     atomic_fetch_add_explicit(&build->done, count, memory_order_relaxed);
+    return true;
 }
 
-static void run_task(GiTasks *tasks, void *context, const void *task, int worker) {
-    Build *build = context;
-    GiRange range, sides[2];
-    memcpy(&range, task, sizeof range);
-    if (!report(build, worker)) return;
-    if (build->clusters == NULL) {
-        finish(build, range);
-        return;
-    }
-    GiClusters *clusters = &build->clusters[worker];
-    if (split_to_buckets(build, clusters, &range)) {
-        for (size_t i = 0; i < clusters->bucket_count; i++) {
-            hand_on(build, tasks, &clusters->buckets[i], worker);
+static void hand_on(
+    Build *build, GiTasks *tasks, const GiRange *ranges, size_t range_count, int worker) {
+    Task task = {.count = 0};
+    size_t items = 0;
+    for (size_t i = 0; i < range_count; i++) {
+        task.ranges[task.count++] = ranges[i];
+        items += ranges[i].end - ranges[i].begin;
+        if (items < TASK_SIZE && task.count < TASK_RANGES && i + 1 < range_count) continue;
+        if (!gi_tasks_add(tasks, &task)) {
+            for (int k = 0; k < task.count; k++) finish_range(build, &task.ranges[k], worker);
         }
+        task.count = 0;
+        items = 0;
+    }
+}
+
+static void split_range(Build *build, GiTasks *tasks, const GiRange *range, int worker) {
+    GiClusters *clusters = &build->clusters[worker];
+    if (split_to_buckets(build, clusters, range)) {
+        hand_on(build, tasks, clusters->buckets, clusters->bucket_count, worker);
     } else {
-        split_items(build, &range, sides);
-        hand_on(build, tasks, &sides[0], worker);
-        hand_on(build, tasks, &sides[1], worker);
+        GiRange sides[2];
+        split_items(build, range, sides);
+        hand_on(build, tasks, sides, 2, worker);
+    }
+}
+
+static void run_task(GiTasks *tasks, void *context, const void *bytes, int worker) {
+    Build *build = context;
+    Task task;
+    memcpy(&task, bytes, sizeof task);
+    for (int i = 0; i < task.count; i++) {
+        const GiRange *range = &task.ranges[i];
+        if (range->end - range->begin < TASK_SIZE) {
+            if (!finish_range(build, range, worker)) return;
+        } else {
+            if (!report(build, worker)) return;
+            split_range(build, tasks, range, worker);
+        }
     }
 }
 
@@ -190,7 +219,7 @@ static GlintStatus build_nodes(GiMemory *memory, GiPool *pool, Build *build) {
         build->clusters = gi_memory_allocate_lines(memory, workers, sizeof *build->clusters);
         if (build->clusters == NULL) return GLINT_ERROR_MEMORY;
     }
-    const GiRange all = {.end = (uint32_t)build->count};
+    const Task all = {.count = 1, .ranges = {{.end = (uint32_t)build->count}}};
     set_bounds(&build->nodes[0], &build->extent->bounds);
     GlintStatus status = gi_tasks_run(pool, memory, &all, sizeof all, run_task, build);
     gi_memory_free_lines(memory, build->clusters, workers, sizeof *build->clusters);
