@@ -428,7 +428,7 @@ static int room_step(void) { return test_slowness() > 1 ? 3 : 1; }
 
 static void pass_gate(
     Kind kind, int count, Room room, GlintDialect dialect, int ray_count, int bundle_count) {
-    static const int counts[] = {1, 7, 8, 15, 16, 17, 100, 1023, 1024};
+    static const int counts[] = {1, 7, 8, 15, 16, 17, 100, 1023, GI_BUNDLE_SIZE};
     static GiTraceRay rays[RAY_LIMIT];
     static GiBundle bundle;
     static char what[200];

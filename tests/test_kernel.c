@@ -555,7 +555,8 @@ static void empty_scene(void) {
 static void regrouped(void) {
     static GiRegroup regroup;
     static float x[GI_REGROUP_LIMIT], y[GI_REGROUP_LIMIT], z[GI_REGROUP_LIMIT];
-    static const int counts[] = {1, 15, 16, 17, 1000, 1024, 1025, 5000, GI_REGROUP_LIMIT};
+    static const int counts[] = {
+        1, 15, 16, 17, 1000, 1024, 1025, 2 * GI_BUNDLE_SIZE, 5000, GI_REGROUP_LIMIT};
     const GiKernel *kernel;
     for (int isa = 0; (kernel = gi_kernel_at(isa)) != NULL; isa++) {
         for (int kind = 0; kind < 4; kind++) {
