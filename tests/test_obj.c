@@ -112,6 +112,12 @@ static void check_lines(const char *text, bool good) {
     unload(&other);
 }
 
+static char *put(char *p, const char *text) {
+    size_t size = strlen(text);
+    memcpy(p, text, size + 1);
+    return p + size;
+}
+
 /* Now as any program writes it, now as hardly any does, now about half-way between two floats. */
 static char *put_number(char *p, Random *random) {
     static const char *const odd[] = {"0", "-0", "+1", ".5", "-.5", "5.", "1e3", "-1.5E-3", "1e-40",
@@ -120,22 +126,22 @@ static char *put_number(char *p, Random *random) {
         "0.00000000000000000000001", "123456789.123456789", "12.345678", "-1.2345678901"};
     int kind = random_below(random, 8);
     double value = random_real(random, -10, 10);
-    if (kind == 0) return p + sprintf(p, "%s", odd[random_below(random, 20)]);
+    if (kind == 0) return put(p, odd[random_below(random, 20)]);
     if (kind == 1) return p + sprintf(p, "%.*f", 8 + random_below(random, 12), value);
     return p + sprintf(p, "%.*g", 1 + random_below(random, 10), value);
 }
 
 static char *put_vector(char *p, Random *random, const char *keyword, int count) {
-    p += sprintf(p, "%s", keyword);
+    p = put(p, keyword);
     for (int i = 0; i < count; i++) {
-        p += sprintf(p, "%s", random_below(random, 20) == 0 ? "  " : " ");
+        p = put(p, random_below(random, 20) == 0 ? "  " : " ");
         p = put_number(p, random);
     }
     return p;
 }
 
 static char *put_face(char *p, Random *random, int style, int vertices) {
-    p += sprintf(p, "f");
+    p = put(p, "f");
     for (int i = 2 + random_below(random, 3 + 20 * (style == 4)); i >= 0; i--) {
         int a = 1 + random_below(random, vertices), b = 1 + random_below(random, vertices);
         if (random_below(random, 30) == 0) a -= vertices + 1;
@@ -156,14 +162,14 @@ static void plain_lines(void) {
         int vertices = 20;
         for (int i = 0; i < vertices; i++) {
             p = put_vector(p, &random, "v", i % 9 == 0 ? 6 : 3);
-            p = put_vector(p + sprintf(p, "%s", end), &random, "vn", 3);
-            p = put_vector(p + sprintf(p, "%s", end), &random, "vt", i % 9 == 0 ? 1 : 2);
-            p += sprintf(p, "%s", end);
+            p = put_vector(put(p, end), &random, "vn", 3);
+            p = put_vector(put(p, end), &random, "vt", i % 9 == 0 ? 1 : 2);
+            p = put(p, end);
         }
         for (int i = 0; i < 40; i++) {
             if (i % 16 == 0) p += sprintf(p, "# a comment%sf 1/ 2// 3/1/%s", end, end);
             p = put_face(p, &random, round % 5, vertices);
-            p += sprintf(p, "%s", i == 39 && round % 2 == 0 ? "" : end);
+            p = put(p, i == 39 && round % 2 == 0 ? "" : end);
         }
         check_lines(text, true);
     }
