@@ -83,11 +83,7 @@ static inline uint64_t gi_bytes_equal(GiBytes bytes, char c) {
 static inline uint64_t gi_bytes_space(GiBytes bytes) {
     uint64_t bits = 0;
     for (int i = 0; i < GI_BYTES / 8; i++) {
-        uint64_t low = bytes.part[i] & ~GI_BYTES_HIGH;
-        uint64_t control =
-            (low + (0x80 - '\t') * GI_BYTES_ONES) & ~(low + (0x80 - '\r' - 1) * GI_BYTES_ONES);
-        uint64_t space = gi_bytes_equal_eight(bytes.part[i], ' ');
-        bits |= gi_bytes_gather(((control & ~bytes.part[i]) | space) & GI_BYTES_HIGH) << (8 * i);
+        bits |= gi_bytes_gather(gi_eight_space(bytes.part[i])) << (8 * i);
     }
     return bits;
 }

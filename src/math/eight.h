@@ -14,3 +14,12 @@ static inline uint64_t gi_eight_load(const char *p) {
 #endif
     return eight;
 }
+
+/* The highest bit of each byte that is a blank or one of the five from tab to carriage return. */
+static inline uint64_t gi_eight_space(uint64_t eight) {
+    const uint64_t ones = UINT64_C(0x0101010101010101), high = ones * 0x80;
+    uint64_t low = eight & ~high; /* no sum below carries into the next byte */
+    uint64_t control = (low + ones * (0x80 - '\t')) & ~(low + ones * (0x80 - '\r' - 1));
+    uint64_t blank = ~((low ^ ones * ' ') + ones * 0x7f);
+    return (control | blank) & ~eight & high;
+}

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "mesh/input.h"
 
+#include "math/eight.h"
 #include "mesh/decimal.h"
 
 #include <float.h>
@@ -124,26 +125,14 @@ void gi_mesh_forget(const GiMeshInput *input, const char *begin, const char *end
 
 /* ---------------------------------------------------------------- words */
 
-#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-/* The highest bit of each of eight bytes, where it is white space. */
-static inline uint64_t find_spaces(const char *p) {
-    const uint64_t ones = UINT64_C(0x0101010101010101), high = ones * 0x80;
-    uint64_t bytes;
-    memcpy(&bytes, p, sizeof bytes);
-    uint64_t low = bytes & ~high; /* no sum below carries into the next byte */
-    uint64_t control = (low + ones * (0x80 - '\t')) & ~(low + ones * (0x80 - '\r' - 1));
-    uint64_t space = ~((low ^ ones * ' ') + ones * 0x7f);
-    return (control | space) & ~bytes & high;
-}
-#endif
-
 const char *gi_mesh_skip_words(const char *p, const char *end, uint64_t count) {
     if (count == 0) return p;
     bool in_word = false;
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
     uint64_t last = 0x80; /* whether the byte before these eight is white space */
     for (; end - p >= 8; p += 8) {
-        uint64_t spaces = find_spaces(p), word_ends = spaces & ~(spaces << 8 | last);
+        uint64_t spaces = gi_eight_space(gi_eight_load(p));
+        uint64_t word_ends = spaces & ~(spaces << 8 | last);
         uint64_t found = (word_ends >> 7) * UINT64_C(0x0101010101010101) >> 56;
         if (found >= count) {
             for (; count > 1; count--) word_ends &= word_ends - 1;
