@@ -9,6 +9,7 @@
 #include "sched/pool.h"
 #include "sched/tasks.h"
 
+#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -316,6 +317,40 @@ static void pool_halves(void) {
     CHECK_INT(atomic_load(&memory.used), 0);
 }
 
+typedef struct Lull {
+    GiPool *pool;
+    _Atomic bool inside, go;
+    bool early, late; /* what worker 0 was told: while the other works, and then */
+} Lull;
+
+static void wait_or_work(void *context, size_t begin, size_t end, int worker) {
+    (void)begin, (void)end;
+    Lull *lull = context;
+    if (worker != 0) {
+        atomic_store(&lull->inside, true);
+        while (!atomic_load(&lull->go)) sched_yield();
+        return;
+    }
+    while (!atomic_load(&lull->inside)) sched_yield();
+    lull->early = gi_parallel_wait(lull->pool, 0.002);
+    atomic_store(&lull->go, true);
+    lull->late = gi_parallel_wait(lull->pool, 60);
+}
+
+/* Worker 0 is told whether the others have left. */
+static void pool_waits(void) {
+    GiMemory memory;
+    gi_memory_init(&memory, NULL, 0);
+    Lull lull = {0};
+    CHECK_INT(gi_pool_create(&memory, 2, &lull.pool), GLINT_OK);
+    gi_parallel_for(lull.pool, 2, 1, wait_or_work, &lull);
+    CHECK(!lull.early);
+    CHECK(lull.late);
+    CHECK(gi_parallel_wait(lull.pool, 0));
+    gi_pool_destroy(lull.pool);
+    CHECK_INT(atomic_load(&memory.used), 0);
+}
+
 typedef struct Nest {
     GiPool *inner[MOST_WORKERS];
     _Atomic int wrong;
@@ -452,6 +487,6 @@ static void digests(void) {
 
 const GiTest tests_base[] = {TEST(memory_is_counted), TEST(memory_limit), TEST(memory_refused),
     TEST(memory_lines), TEST(sizes), TEST(memory_from_threads), TEST(arrays), TEST(errors),
-    TEST(pool_covers), TEST(pool_many_loops), TEST(pool_halves), TEST(pool_nested),
-    TEST(pool_of_little_memory), TEST(tasks_beget_tasks), TEST(tasks_of_little_memory),
-    TEST(digests), TEST_END};
+    TEST(pool_covers), TEST(pool_many_loops), TEST(pool_halves), TEST(pool_waits),
+    TEST(pool_nested), TEST(pool_of_little_memory), TEST(tasks_beget_tasks),
+    TEST(tasks_of_little_memory), TEST(digests), TEST_END};

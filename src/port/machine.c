@@ -59,11 +59,6 @@ double gi_machine_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void gi_machine_sleep(double seconds) {
-    const struct timespec time = {0, (long)(seconds * 1e9)};
-    nanosleep(&time, NULL);
-}
-
 /* The C library has asked the processor already. To ask again takes 80 us in a virtual machine,
  * which the host has to answer for. */
 #if (defined(__x86_64__) || defined(__i386__)) && defined(__has_include)

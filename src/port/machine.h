@@ -20,9 +20,6 @@ int gi_machine_core_count(void);
 /* Seconds since some fixed moment; never runs backwards. */
 double gi_machine_seconds(void);
 
-/* Lets the processor to others for about that long, less than a second. */
-void gi_machine_sleep(double seconds);
-
 typedef enum GiMachineFeature {
     GI_MACHINE_SSE2,
     GI_MACHINE_AVX2,

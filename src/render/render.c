@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "render/render.h"
 
-#include "port/machine.h"
 #include "render/stage.h"
 
 #include <string.h>
 
 typedef struct Render {
     const GiWorld *world;
+    GiPool *pool;
     const GiRenderArea *area;
     const GlintMonitor *monitor;
     const GiRenderTarget *target;
@@ -39,12 +39,9 @@ static void send(Render *render) {
     if (png != NULL && !gi_png_send(png)) atomic_store(&render->stop, true);
 }
 
-/* No tile is left to begin, but the caller can still be asked. */
+/* No tile is left to begin, but bands can be sent, and the caller can still be asked. */
 static void wait_for_others(Render *render) {
-    int count = render->columns * render->rows;
-    if (render->monitor == NULL) return;
-    while (atomic_load(&render->done) < count && !atomic_load(&render->stop)) {
-        gi_machine_sleep(0.001);
+    while (!gi_parallel_wait(render->pool, 0.001)) {
         send(render);
         report(render);
     }
@@ -100,7 +97,8 @@ GlintStatus gi_render(const GiWorld *world, GiPool *pool, const GiRenderArea *ar
     const GlintMonitor *monitor, const GiRenderTarget *target, GiRenderCounts *counts) {
     GiMemory *memory = world->scene->memory;
     size_t workers = (size_t)gi_pool_worker_count(pool);
-    Render render = {.world = world, .area = area, .monitor = monitor, .target = target};
+    Render render = {
+        .world = world, .pool = pool, .area = area, .monitor = monitor, .target = target};
     render.size = tile_size(world, area, workers);
     render.columns = (area->crop_width + render.size.width - 1) / render.size.width;
     render.rows = (area->crop_height + render.size.height - 1) / render.size.height;

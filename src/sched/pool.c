@@ -2,12 +2,14 @@
  * Workers sleep on a condition until a loop is announced by a new generation number, claim blocks
  * from one atomic counter, and report back. The caller returns when every worker that entered the
  * loop has left it, so the loop's data may live on the caller's stack. */
+#define _POSIX_C_SOURCE 200809L /* pthread_condattr_setclock */
 #include "sched/pool.h"
 
 #include "port/machine.h"
 
 #include <pthread.h>
 #include <string.h>
+#include <time.h>
 
 typedef struct Loop {
     size_t count, block;
@@ -89,7 +91,11 @@ GlintStatus gi_pool_create(GiMemory *memory, int thread_count, GiPool **result) 
     pool->worker_count = 1;
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->wake, NULL);
-    pthread_cond_init(&pool->done, NULL);
+    pthread_condattr_t clock;
+    pthread_condattr_init(&clock);
+    pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
+    pthread_cond_init(&pool->done, &clock);
+    pthread_condattr_destroy(&clock);
     /* A kernel takes up to half a megabyte (kernel/inside.h); some C libraries give less.
      */
     pthread_attr_t attributes;
@@ -147,6 +153,22 @@ void gi_parallel_end(GiPool *pool) {
     pthread_mutex_lock(&pool->mutex);
     while (pool->active > 0) pthread_cond_wait(&pool->done, &pool->mutex);
     pthread_mutex_unlock(&pool->mutex);
+}
+
+bool gi_parallel_wait(GiPool *pool, double seconds) {
+    struct timespec end;
+    clock_gettime(CLOCK_MONOTONIC, &end);
+    int64_t nanoseconds = end.tv_nsec + (int64_t)(seconds * 1e9);
+    end.tv_sec += (time_t)(nanoseconds / 1000000000);
+    end.tv_nsec = (long)(nanoseconds % 1000000000);
+    pthread_mutex_lock(&pool->mutex);
+    int late = 0;
+    while (pool->active > 0 && late == 0) {
+        late = pthread_cond_timedwait(&pool->done, &pool->mutex, &end);
+    }
+    bool left = pool->active == 0;
+    pthread_mutex_unlock(&pool->mutex);
+    return left;
 }
 
 void gi_parallel_for(

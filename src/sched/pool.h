@@ -33,3 +33,7 @@ void gi_parallel_for(
 void gi_parallel_begin(
     GiPool *pool, size_t count, size_t min_range, GiParallelFn function, void *context);
 void gi_parallel_end(GiPool *pool);
+
+/* For worker 0 inside a loop's function, when nothing is left for it: waits until the other workers
+ * have left the loop, or so many seconds. Returns whether they have. */
+bool gi_parallel_wait(GiPool *pool, double seconds);
