@@ -15,6 +15,10 @@ bool gi_rectangle_init(GiLightRectangle *rectangle, GiVec center, GiVec normal, 
         .upward = gi_scale(gi_cross(front, across), height),
         .front = front,
         .area = width * height};
+    rectangle->width = gi_length(rectangle->across);
+    rectangle->height = gi_length(rectangle->upward);
+    rectangle->x = gi_scale(rectangle->across, 1 / rectangle->width);
+    rectangle->y = gi_scale(rectangle->upward, 1 / rectangle->height);
     return true;
 }
 
@@ -46,10 +50,10 @@ static const double pi = 3.14159265358979323846;
 /* The rectangle x0 ... x1, y0 ... y1 at height z < 0 over the one who looks, and what its four
  * sides look like: great circles, each with the z of its normal. */
 typedef struct View {
-    GiVec x, y; /* unit */
     double x0, x1, y0, y1, z;
     double below, right, above, left;
-    double angle; /* solid; 0: nothing is seen but the back */
+    double high_left, low_left; /* the inner angles there, less a right angle */
+    double angle;               /* solid; 0: nothing is seen but the back */
 } View;
 
 /* The z of the normal of the circle through a side at distance `side`, not yet turned outward. */
@@ -57,24 +61,22 @@ static double slope(double side, double z) { return side / sqrt(side * side + z 
 
 static View view_from(const GiLightRectangle *rectangle, GiVec from) {
     GiVec middle = gi_sub(rectangle->center, from);
-    double height = gi_dot(middle, rectangle->front);
-    double width = gi_length(rectangle->across), tallness = gi_length(rectangle->upward);
-    View view = {.x = gi_scale(rectangle->across, 1 / width),
-        .y = gi_scale(rectangle->upward, 1 / tallness),
-        .z = height};
-    if (!(height < 0)) return view;
-    double x = gi_dot(middle, view.x), y = gi_dot(middle, view.y);
-    view.x0 = x - width / 2;
-    view.x1 = x + width / 2;
-    view.y0 = y - tallness / 2;
-    view.y1 = y + tallness / 2;
-    view.below = -slope(view.y0, height);
-    view.right = slope(view.x1, height);
-    view.above = slope(view.y1, height);
-    view.left = -slope(view.x0, height);
+    View view = {.z = gi_dot(middle, rectangle->front)};
+    if (!(view.z < 0)) return view;
+    double x = gi_dot(middle, rectangle->x), y = gi_dot(middle, rectangle->y);
+    view.x0 = x - rectangle->width / 2;
+    view.x1 = x + rectangle->width / 2;
+    view.y0 = y - rectangle->height / 2;
+    view.y1 = y + rectangle->height / 2;
+    view.below = -slope(view.y0, view.z);
+    view.right = slope(view.x1, view.z);
+    view.above = slope(view.y1, view.z);
+    view.left = -slope(view.x0, view.z);
+    view.high_left = gi_asin(view.above * view.left);
+    view.low_left = gi_asin(view.left * view.below);
     /* The sum of the inner angles over that of a flat rectangle; acos(-a) = pi / 2 + asin(a). */
     view.angle = gi_asin(view.below * view.right) + gi_asin(view.right * view.above) +
-                 gi_asin(view.above * view.left) + gi_asin(view.left * view.below);
+                 view.high_left + view.low_left;
     return view;
 }
 
@@ -86,8 +88,7 @@ static double clamp(double value, double low, double high) {
 /* The x up to which the part of the rectangle has the share u of its solid angle. */
 static double choose_x(const View *view, double u) {
     double sine, cosine;
-    double rest = pi - gi_asin(view->above * view->left) - gi_asin(view->left * view->below);
-    gi_sincos(u * view->angle + rest, &sine, &cosine);
+    gi_sincos(u * view->angle + (pi - view->high_left - view->low_left), &sine, &cosine);
     double f = (cosine * view->below - view->above) / sine;
     double c = 1 / sqrt(f * f + view->below * view->below);
     c = clamp(f > 0 ? c : -c, -1, 1);
@@ -118,7 +119,7 @@ double gi_rectangle_sample_angle(
     if (!(view.angle > least_angle)) return gi_rectangle_sample(rectangle, from, u, point);
     double x = choose_x(&view, u[0]), y = choose_y(&view, x, u[1]);
     GiVec foot = gi_along(from, rectangle->front, view.z);
-    *point = gi_along(gi_along(foot, view.x, x), view.y, y);
+    *point = gi_along(gi_along(foot, rectangle->x, x), rectangle->y, y);
     return view.angle;
 }
 

@@ -8,6 +8,8 @@ typedef struct GiLightRectangle {
     GiVec center;
     GiVec across, upward; /* its two sides, with their lengths */
     GiVec front;          /* unit */
+    GiVec x, y;           /* the sides' directions, unit */
+    double width, height; /* their lengths */
     double area;
 } GiLightRectangle;
 

@@ -195,6 +195,13 @@ static double atan_of_octant(double y, double x) {
     return atan_of_eighths[eighth] + (z + z * (q * polynomial(series, 7, q)));
 }
 
+/* The angle of the ray to (x, y) above the axis: both finite, one of them not small. Pi and pi/2
+ * are taken with what they lack. */
+static double angle_above(double y, double x) {
+    double angle = y <= x ? atan_of_octant(y, x) : atan_of_octant(x, y);
+    return y <= x ? angle : 1.5707963267948966 - (angle - 6.1232339957367660e-17);
+}
+
 double gi_atan2(double y, double x) {
     if (isnan(x) || isnan(y)) return NAN;
     if (isinf(x) || isinf(y)) { /* only who is infinite matters */
@@ -206,14 +213,14 @@ double gi_atan2(double y, double x) {
     double scale = largest > 0x1p1000 ? 0x1p-100 : largest < 0x1p-900 ? 0x1p100 : 1;
     a *= scale;
     b *= scale;
-    double angle = 0;
-    if (largest > 0) angle = b <= a ? atan_of_octant(b, a) : atan_of_octant(a, b);
-    /* pi and pi/2 with what they lack. */
-    if (b > a) angle = 1.5707963267948966 - (angle - 6.1232339957367660e-17);
+    double angle = largest > 0 ? angle_above(b, a) : 0;
     if (signbit(x)) angle = 3.1415926535897931 - (angle - 1.2246467991473532e-16);
     return copysign(angle, y);
 }
 
-double gi_asin(double x) { return gi_atan2(x, sqrt((1 - x) * (1 + x))); }
+double gi_asin(double x) {
+    if (!(fabs(x) <= 1)) return NAN;
+    return copysign(angle_above(fabs(x), sqrt((1 - x) * (1 + x))), x);
+}
 
 double gi_acos(double x) { return gi_atan2(sqrt((1 - x) * (1 + x)), x); }
