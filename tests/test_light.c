@@ -201,6 +201,53 @@ static void environment_counts(void) {
     free(places.pixels);
 }
 
+/* The last part that begins with no more than the fraction u of the whole. */
+static size_t search(const double *sums, size_t count, double u) {
+    size_t part = 0;
+    for (size_t i = 1; i < count; i++) part = sums[i] <= u * sums[count] ? i : part;
+    return part;
+}
+
+/* Next to the sums' own steps, too, the texel is the one that a plain search finds. */
+static void environment_choice(void) {
+    GiMemory memory;
+    gi_memory_init(&memory, NULL, 0);
+    Random random = {31};
+    for (int face = 1; face <= 40; face += 13) {
+        GiEnvironment map = make_map(face, 77);
+        /* Most of it from one texel of the third face, below rows that are black. */
+        size_t wide = 3 * (size_t)face, side = (size_t)face;
+        map.pixels[3 * (3 * side * wide + side)] = 1e5f;
+        for (size_t i = 0; i < side * wide * 3; i++) map.pixels[2 * side * wide * 3 + i] = 0;
+        GiEnvironmentSampler sampler;
+        CHECK(gi_environment_sampler_init(&sampler, &memory, &map));
+        for (int k = 0; k < 20000; k++) {
+            double u[2] = {random_real(&random, 0, 1), random_real(&random, 0, 1)};
+            size_t row = search(sampler.rows, 6 * side, u[0]);
+            const double *sums = sampler.columns + row * (side + 1);
+            if (k % 3 == 0) u[0] = sampler.rows[row] / sampler.rows[6 * side];
+            if (k % 5 == 0) u[1] = sums[random_below(&random, face)] / sums[side];
+            for (int i = 0; i < 2; i++) u[i] = floor(u[i] * 0x1p32) * 0x1p-32;
+            if (u[0] == 1 || u[1] == 1) continue;
+            row = search(sampler.rows, 6 * side, u[0]);
+            sums = sampler.columns + row * (side + 1);
+            size_t column = search(sums, side, u[1]);
+            GiVec direction, radiance;
+            double p = gi_environment_sample(&sampler, u, &direction, &radiance);
+            static const size_t columns[] = {2, 0, 1, 1, 1, 1}, rows[] = {2, 2, 3, 1, 0, 2};
+            size_t x = columns[row / side] * side + column;
+            size_t y = rows[row / side] * side + row % side;
+            const float *rgb = map.pixels + 3 * (y * wide + x);
+            CHECK(p > 0);
+            CHECK(radiance.x == map.scale * (double)rgb[0]);
+            CHECK(radiance.y == map.scale * (double)rgb[1]);
+        }
+        gi_environment_sampler_reset(&sampler, &memory);
+        free(map.pixels);
+    }
+    CHECK_INT(memory.used, 0);
+}
+
 static void environment_constant_and_black(void) {
     GiMemory memory;
     gi_memory_init(&memory, NULL, 0);
@@ -429,6 +476,6 @@ static void rectangle_by_solid_angle(void) {
 }
 
 const GiTest tests_light[] = {TEST(environment_lookup), TEST(environment_density),
-    TEST(environment_counts), TEST(environment_constant_and_black), TEST(environment_load),
-    TEST(environment_refused), TEST(rectangle_frame), TEST(rectangle_solid_angle),
-    TEST(rectangle_by_solid_angle), TEST_END};
+    TEST(environment_counts), TEST(environment_choice), TEST(environment_constant_and_black),
+    TEST(environment_load), TEST(environment_refused), TEST(rectangle_frame),
+    TEST(rectangle_solid_angle), TEST(rectangle_by_solid_angle), TEST_END};

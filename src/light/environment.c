@@ -41,15 +41,16 @@ static Place place_of(GiVec d) {
     return (Place){d.z > 0 ? 4 : 5, d.x / z, -d.y / d.z};
 }
 
-/* The opposite; not of unit length. */
+/* The opposite; not of unit length. Faces that are drawn cannot be foretold, so they are told apart
+ * by a table. */
 static GiVec direction_of(Place place) {
+    enum { SIDE, U, V, U_SIDE, V_SIDE, V_DOWN };
+    static const uint8_t parts[][3] = {
+        [AXIS_X] = {SIDE, V, U_SIDE}, [AXIS_Y] = {U, SIDE, V_SIDE}, [AXIS_Z] = {U, V_DOWN, SIDE}};
     double side = faces[place.face].side, u = place.u, v = place.v;
-    switch (faces[place.face].axis) {
-    case AXIS_X: return gi_vec(side, v, u * side);
-    case AXIS_Y: return gi_vec(u, side, v * side);
-    case AXIS_Z: break;
-    }
-    return gi_vec(u, -v * side, side);
+    const double numbers[] = {side, u, v, u * side, v * side, -v * side};
+    const uint8_t *part = parts[faces[place.face].axis];
+    return gi_vec(numbers[part[0]], numbers[part[1]], numbers[part[2]]);
 }
 
 /* From -1 ... 1 to the index of a texel. */
@@ -152,28 +153,69 @@ static size_t row_count(const GiEnvironment *environment) {
     return FACE_COUNT * (size_t)environment->face;
 }
 
+/* Of parts whose ends are running sums the last that begins with no more than `wanted`: never one
+ * without extent, unless all are. From a hint where it is, it is not far: the first step, which
+ * half of the walks take, is taken without asking. */
+static inline size_t walk_to(const double *sums, size_t count, double wanted, size_t hint) {
+    hint += (hint + 1 < count) & (sums[hint + 1] <= wanted);
+    while (hint + 1 < count && sums[hint + 1] <= wanted) hint++;
+    while (hint > 0 && sums[hint] > wanted) hint--;
+    return hint;
+}
+
+/* As many hints as there are parts (Chen and Asau 1974): on average a walk takes one step. */
+static void find_hints(const double *sums, size_t count, uint32_t *hints) {
+    size_t at = 0;
+    for (size_t i = 0; i < count; i++) {
+        at = walk_to(sums, count, (double)i / (double)count * sums[count], at);
+        hints[i] = (uint32_t)at;
+    }
+}
+
+/* Which of the count parts holds the fraction u of the whole. *rest becomes the place within it,
+ * from 0 to 1. */
+static inline size_t choose(
+    const double *sums, const uint32_t *hints, size_t count, double u, double *rest) {
+    double wanted = u * sums[count];
+    size_t part = walk_to(sums, count, wanted, hints[(size_t)(u * (double)count)]);
+    *rest = (wanted - sums[part]) / (sums[part + 1] - sums[part]);
+    return part;
+}
+
+/* The sums and hints of a row. */
+static void sum_row(const GiEnvironmentSampler *sampler, size_t row) {
+    const GiEnvironment *environment = sampler->environment;
+    size_t side = (size_t)environment->face;
+    double *sums = sampler->columns + row * (side + 1);
+    int line = (int)(row % side);
+    const float *rgb = texel(environment, (int)(row / side), 0, line);
+    sums[0] = 0;
+    for (int k = 0; k < environment->face; k++) {
+        double u = middle(k, environment->face), v = middle(line, environment->face);
+        sums[k + 1] = sums[k] + weight(rgb + 3 * k, u, v);
+    }
+    find_hints(sums, side, sampler->column_hints + row * side);
+}
+
 bool gi_environment_sampler_init(
     GiEnvironmentSampler *sampler, GiMemory *memory, const GiEnvironment *environment) {
     size_t rows = row_count(environment), side = (size_t)environment->face;
     sampler->environment = environment;
     sampler->rows = gi_memory_allocate(memory, (rows + 1) * sizeof(double));
     sampler->columns = gi_memory_allocate(memory, rows * (side + 1) * sizeof(double));
-    if (sampler->rows == NULL || sampler->columns == NULL) {
+    sampler->row_hints = gi_memory_allocate(memory, rows * sizeof(uint32_t));
+    sampler->column_hints = gi_memory_allocate(memory, rows * side * sizeof(uint32_t));
+    if (sampler->rows == NULL || sampler->columns == NULL || sampler->row_hints == NULL ||
+        sampler->column_hints == NULL) {
         gi_environment_sampler_reset(sampler, memory);
         return false;
     }
     sampler->rows[0] = 0;
     for (size_t i = 0; i < rows; i++) {
-        double *sums = sampler->columns + i * (side + 1);
-        int row = (int)(i % side);
-        const float *rgb = texel(environment, (int)(i / side), 0, row);
-        sums[0] = 0;
-        for (int k = 0; k < environment->face; k++) {
-            double u = middle(k, environment->face), v = middle(row, environment->face);
-            sums[k + 1] = sums[k] + weight(rgb + 3 * k, u, v);
-        }
-        sampler->rows[i + 1] = sampler->rows[i] + sums[side];
+        sum_row(sampler, i);
+        sampler->rows[i + 1] = sampler->rows[i] + sampler->columns[i * (side + 1) + side];
     }
+    find_hints(sampler->rows, rows, sampler->row_hints);
     return true;
 }
 
@@ -181,24 +223,10 @@ void gi_environment_sampler_reset(GiEnvironmentSampler *sampler, GiMemory *memor
     size_t rows = row_count(sampler->environment), side = (size_t)sampler->environment->face;
     gi_memory_free(memory, sampler->rows, (rows + 1) * sizeof(double));
     gi_memory_free(memory, sampler->columns, rows * (side + 1) * sizeof(double));
+    gi_memory_free(memory, sampler->row_hints, rows * sizeof(uint32_t));
+    gi_memory_free(memory, sampler->column_hints, rows * side * sizeof(uint32_t));
     sampler->rows = sampler->columns = NULL;
-}
-
-/* Which of the count parts, whose ends are running sums, holds the fraction u of the whole; never
- * one without extent. *rest becomes the place within it, from 0 to 1. */
-static size_t choose(const double *sums, size_t count, double u, double *rest) {
-    double wanted = u * sums[count];
-    size_t low = 0, high = count;
-    while (high - low > 1) {
-        size_t half = low + (high - low) / 2;
-        if (sums[half] <= wanted) {
-            low = half;
-        } else {
-            high = half;
-        }
-    }
-    *rest = (wanted - sums[low]) / (sums[low + 1] - sums[low]);
-    return low;
+    sampler->row_hints = sampler->column_hints = NULL;
 }
 
 /* Per solid angle, at u, v of the texel in column `column` of row `row` of all. */
@@ -219,8 +247,9 @@ double gi_environment_sample(
     size_t rows = row_count(environment), side = (size_t)environment->face;
     if (!(sampler->rows[rows] > 0)) return 0;
     double down, right;
-    size_t row = choose(sampler->rows, rows, u[0], &down);
-    size_t column = choose(sampler->columns + row * (side + 1), side, u[1], &right);
+    size_t row = choose(sampler->rows, sampler->row_hints, rows, u[0], &down);
+    size_t column = choose(sampler->columns + row * (side + 1), sampler->column_hints + row * side,
+        side, u[1], &right);
     Place place = {.face = (int)(row / side),
         .u = 2 * ((double)column + right) / (double)side - 1,
         .v = 2 * ((double)(row % side) + down) / (double)side - 1};

@@ -25,11 +25,13 @@ GiVec gi_environment_radiance(const GiEnvironment *environment, GiVec direction)
 
 /* ---------------------------------------------------------------- sampling */
 
-/* Chooses texels by brightness times size, and points evenly on a texel's square. */
+/* Chooses texels by brightness times size, and points evenly on a texel's square. Beside the sums
+ * stand hints: for every so many-th part of the whole where it ends up. */
 typedef struct GiEnvironmentSampler {
     const GiEnvironment *environment;
     double *rows;    /* 6 face + 1 sums of weights: face after face, row after row */
     double *columns; /* for each of these rows face + 1 sums */
+    uint32_t *row_hints, *column_hints; /* 6 face, and for each of these rows face */
 } GiEnvironmentSampler;
 
 /* environment must not be empty and must outlive the sampler. False when memory is short. */
