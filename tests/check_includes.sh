@@ -24,7 +24,7 @@ light: image port
 texture: port
 scene: mesh shape light texture port
 accel: shape sched port
-kernel: accel shape port
+kernel: accel light shape port
 shade: scene shape light texture
 camera: mistake scene
 reader: scene mesh shape light texture sched port

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Cube maps: reading, lookup against the table of the format, sampling against integrals and
  * counts. Rectangles of light against the solid angle they fill. */
+#include "kernel/kernel.h"
 #include "light/environment.h"
 #include "light/rectangle.h"
 #include "pictures.h"
@@ -446,6 +447,71 @@ static void check_by_angle(const GiLightRectangle *r, GiVec from) {
     }
 }
 
+/* A place to look from: near and far, before it and behind, in its plane, at an edge. */
+static GiVec random_place(Random *random, const GiLightRectangle *r) {
+    double s = random_real(random, -2, 2), t = random_real(random, -2, 2);
+    double away = random_real(random, -1, 3);
+    if (random_below(random, 4) == 0) s = random_below(random, 3) * 0.5 - 0.5;
+    if (random_below(random, 4) == 0) t = random_below(random, 3) * 0.5 - 0.5;
+    if (random_below(random, 4) == 0) away = random_tiny(random);
+    if (random_below(random, 16) == 0) away = 0;
+    if (random_below(random, 8) == 0) away *= 100;
+    GiVec place = gi_along(gi_along(r->center, r->across, s), r->upward, t);
+    return gi_along(place, r->front, away);
+}
+
+static bool equal(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
+
+/* What every kernel draws for points that stand side by side is, to the bit, what is drawn for each
+ * of them alone. */
+static void rectangle_kernels(void) {
+    GiPoints *points = malloc(sizeof *points);
+    memset(points, 0, sizeof *points);
+    const GiKernel *kernel;
+    Random random = {9};
+    int by_angle = 0, by_area = 0, unseen = 0;
+    for (int round = 0; round < 300; round++) {
+        GiLightRectangle r;
+        double size = pow(10, random_real(&random, -3, 3));
+        CHECK(gi_rectangle_init(&r, random_vec(&random, -3, 3), random_direction(&random),
+            random_direction(&random), size, size * random_real(&random, 0.01, 1)));
+        GiPairs pairs = {.u = {0}};
+        int begin = random_below(&random, 100), count = 1 + random_below(&random, GI_AREA_TOGETHER);
+        for (int i = 0; i < count; i++) {
+            GiVec from = random_place(&random, &r);
+            points->px[begin + i] = from.x, points->py[begin + i] = from.y;
+            points->pz[begin + i] = from.z;
+            static const double ends[] = {0, 1 - 0x1p-32, 0.5};
+            bool end = random_below(&random, 4) == 0;
+            pairs.u[i] = end ? ends[random_below(&random, 3)] : random_real(&random, 0, 1);
+            pairs.v[i] = end ? ends[random_below(&random, 3)] : random_real(&random, 0, 1);
+        }
+        for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
+            GiAreaBeams to;
+            kernel->area(&r, points, begin, count, &pairs, &to);
+            for (int i = 0; i < count; i++) {
+                GiVec point, from = gi_vec(points->px[begin + i], points->py[begin + i],
+                                 points->pz[begin + i]);
+                double u[2] = {pairs.u[i], pairs.v[i]};
+                double factor = gi_rectangle_sample_angle(&r, from, u, &point);
+                GiVec offset = gi_sub(point, from);
+                double distance = gi_length(offset);
+                GiVec direction = gi_scale(offset, 1 / distance);
+                CHECK(equal(to.factor[i], factor) && equal(to.distance[i], distance));
+                CHECK(equal(to.dx[i], direction.x) && equal(to.dy[i], direction.y) &&
+                      equal(to.dz[i], direction.z));
+                CHECK(equal(
+                    to.t_max[i], distance - (gi_largest(point) + distance) * GI_SURFACE_ERROR));
+                GiVec evenly;
+                double other = gi_rectangle_sample(&r, from, u, &evenly);
+                *(factor == 0 ? &unseen : factor == other ? &by_area : &by_angle) += 1;
+            }
+        }
+    }
+    CHECK(by_angle > 1000 && by_area > 1000 && unseen > 1000);
+    free(points);
+}
+
 static void rectangle_by_solid_angle(void) {
     static const GiVec places[] = {{0.5, 1, 0}, {3, -2, 1}, {0, 0, 4.9}, {1.9, 2.9, 4.5},
         {-4, 0.1, 4.5}, {0.2, 6, 2}, {7, 7, 4.99}};
@@ -478,4 +544,4 @@ static void rectangle_by_solid_angle(void) {
 const GiTest tests_light[] = {TEST(environment_lookup), TEST(environment_density),
     TEST(environment_counts), TEST(environment_choice), TEST(environment_constant_and_black),
     TEST(environment_load), TEST(environment_refused), TEST(rectangle_frame),
-    TEST(rectangle_solid_angle), TEST(rectangle_by_solid_angle), TEST_END};
+    TEST(rectangle_solid_angle), TEST(rectangle_kernels), TEST(rectangle_by_solid_angle), TEST_END};

@@ -4,6 +4,7 @@
  * that no function of a later processor can be linked into code for an earlier one. */
 #include "kernel/kernel.h"
 
+#include "math/angle.h"
 #include "shape/hit.h"
 #include "kernel/count.h"
 #include "kernel/wide.h"
@@ -28,6 +29,7 @@
 #include "kernel/inside.h"
 #include "kernel/bundle.h"
 #include "kernel/light.h"
+#include "kernel/area.h"
 #include "kernel/stream.h"
 #include "kernel/gamma.h"
 #include "kernel/regroup_order.h"
@@ -46,6 +48,7 @@ const GiKernel GI_KERNEL(kernel) = {
     GI_KERNEL(group),
     GI_KERNEL(points),
     GI_KERNEL(light),
+    GI_KERNEL(area),
     GI_KERNEL(shadows),
     GI_KERNEL(add),
     GI_KERNEL(colors),

@@ -11,6 +11,7 @@
 #include "math/view.h"
 #include "kernel/points.h"
 #include "kernel/regroup.h"
+#include "light/rectangle.h"
 #include "math/gamma.h"
 
 typedef struct GiTrace {
@@ -105,6 +106,10 @@ typedef struct GiKernel {
      * arrives as yet. */
     void (*light)(const GiPoints *points, int begin, int end, const GiPointLight *light,
         const GiGloss *gloss, GiLit *lit);
+    /* For count points from `begin` on, at most GI_AREA_TOGETHER, what gi_rectangle_sample_angle
+     * draws by these numbers. Of `pairs` and `beams` whole vectors are read and written. */
+    void (*area)(const GiLightRectangle *rectangle, const GiPoints *points, int begin, int count,
+        const GiPairs *pairs, GiAreaBeams *beams);
     /* The shadow rays to bundle->apex of the bundle->count lit that `order` names; bundle->pixel is
      * the point. */
     void (*shadows)(

@@ -70,3 +70,20 @@ typedef struct GiLit {
     uint32_t point[GI_POINT_ROOM];
     float x[GI_POINT_ROOM], y[GI_POINT_ROOM], z[GI_POINT_ROOM]; /* unit direction */
 } GiLit;
+
+/* Toward a rectangle of light, from points that stand side by side. */
+enum { GI_AREA_TOGETHER = 64 };
+
+/* Random numbers for points of it. */
+typedef struct GiPairs {
+    _Alignas(64) double u[GI_AREA_TOGETHER];
+    double v[GI_AREA_TOGETHER];
+} GiPairs;
+
+typedef struct GiAreaBeams {
+    _Alignas(64) double dx[GI_AREA_TOGETHER]; /* unit direction */
+    double dy[GI_AREA_TOGETHER], dz[GI_AREA_TOGETHER];
+    double factor[GI_AREA_TOGETHER]; /* as gi_rectangle_sample_angle has it */
+    double distance[GI_AREA_TOGETHER];
+    double t_max[GI_AREA_TOGETHER]; /* not as far as the rectangle, which may be a surface */
+} GiAreaBeams;

@@ -3,6 +3,7 @@
  * An Area-Preserving Parametrization for Spherical Rectangles). */
 #include "light/rectangle.h"
 
+#include "math/angle.h"
 #include "math/elementary.h"
 
 bool gi_rectangle_init(GiLightRectangle *rectangle, GiVec center, GiVec normal, GiVec up,
@@ -41,11 +42,6 @@ double gi_rectangle_density(const GiLightRectangle *rectangle, GiVec offset) {
 }
 
 /* ---------------------------------------------------------------- by solid angle */
-
-/* A smaller one is the difference of numbers too close to each other, and points by area are as
- * good then. */
-static const double least_angle = 1e-5;
-static const double pi = 3.14159265358979323846;
 
 /* The rectangle x0 ... x1, y0 ... y1 at height z < 0 over the one who looks, and what its four
  * sides look like: great circles, each with the z of its normal. */
@@ -88,7 +84,7 @@ static double clamp(double value, double low, double high) {
 /* The x up to which the part of the rectangle has the share u of its solid angle. */
 static double choose_x(const View *view, double u) {
     double sine, cosine;
-    gi_sincos(u * view->angle + (pi - view->high_left - view->low_left), &sine, &cosine);
+    gi_sincos(u * view->angle + (GI_PI - view->high_left - view->low_left), &sine, &cosine);
     double f = (cosine * view->below - view->above) / sine;
     double c = 1 / sqrt(f * f + view->below * view->below);
     c = clamp(f > 0 ? c : -c, -1, 1);
@@ -104,19 +100,17 @@ static double choose_y(const View *view, double x, double u) {
     return clamp(h * sqrt(square) / sqrt(1 - h * h), view->y0, view->y1);
 }
 
-/* Whether the rectangle looks so large that points by area make noise: farther away they are as
- * good, and cheaper to find. */
 static bool is_near(const GiLightRectangle *rectangle, GiVec from) {
-    enum { FAR = 4 }; /* square of the distance over area */
     GiVec offset = gi_sub(rectangle->center, from);
-    return gi_dot(offset, offset) < FAR * rectangle->area;
+    return gi_dot(offset, offset) < GI_RECTANGLE_FAR * rectangle->area;
 }
 
 double gi_rectangle_sample_angle(
     const GiLightRectangle *rectangle, GiVec from, const double u[2], GiVec *point) {
     if (!is_near(rectangle, from)) return gi_rectangle_sample(rectangle, from, u, point);
     View view = view_from(rectangle, from);
-    if (!(view.angle > least_angle)) return gi_rectangle_sample(rectangle, from, u, point);
+    if (!(view.angle > GI_RECTANGLE_LEAST_ANGLE))
+        return gi_rectangle_sample(rectangle, from, u, point);
     double x = choose_x(&view, u[0]), y = choose_y(&view, x, u[1]);
     GiVec foot = gi_along(from, rectangle->front, view.z);
     *point = gi_along(gi_along(foot, rectangle->x, x), rectangle->y, y);
@@ -126,7 +120,7 @@ double gi_rectangle_sample_angle(
 double gi_rectangle_density_angle(const GiLightRectangle *rectangle, GiVec from, GiVec point) {
     if (is_near(rectangle, from)) {
         View view = view_from(rectangle, from);
-        if (view.angle > least_angle) return 1 / view.angle;
+        if (view.angle > GI_RECTANGLE_LEAST_ANGLE) return 1 / view.angle;
     }
     return gi_rectangle_density(rectangle, gi_sub(point, from));
 }

@@ -28,6 +28,12 @@ double gi_rectangle_sample(
  * at the back. */
 double gi_rectangle_density(const GiLightRectangle *rectangle, GiVec offset);
 
+/* Only from nearer than this, the square of the distance over the area, the rectangle looks so
+ * large that points by area make noise. And a smaller angle is the difference of numbers too close
+ * to each other. Else points by area are as good, and cheaper to find. */
+enum { GI_RECTANGLE_FAR = 4 };
+#define GI_RECTANGLE_LEAST_ANGLE 1e-5
+
 /* The same, evenly by solid angle: the factor is that angle, whatever point is drawn, so a light
  * that is near makes less noise (Urena, Fajardo and King 2013); from farther away evenly by area.
  * The density is for a point of the rectangle. */

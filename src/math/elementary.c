@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "math/elementary.h"
 
+#include "math/angle.h"
 #include "math/bits.h"
 
 #include <math.h>
@@ -143,14 +144,11 @@ double gi_log(double x) {
 /* Sine and cosine of `quarter` right angles and r more, |r| <= 0.786, by their Taylor series; the
  * terms left out are below 1e-18. */
 static void sincos_of_quarter(int quarter, double r, double *sine, double *cosine) {
-    static const double sine_series[] = {-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880,
-        -1.0 / 39916800, 1.0 / 6227020800.0, -1.0 / 1307674368000.0, 1.0 / 355687428096000.0};
-    static const double cosine_series[] = {1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800,
-        1.0 / 479001600, -1.0 / 87178291200.0, 1.0 / 20922789888000.0, -1.0 / 6402373705728000.0};
     double q = r * r;
-    double s = r + r * (q * polynomial(sine_series, 8, q));
+    double s = r + r * (q * polynomial(gi_sine_series, GI_SINE_TERMS, q));
     double half = 0.5 * q, high = 1 - half;
-    double c = high + (((1 - high) - half) + q * q * polynomial(cosine_series, 8, q));
+    double c =
+        high + (((1 - high) - half) + q * q * polynomial(gi_cosine_series, GI_SINE_TERMS, q));
     switch (quarter & 3) {
     case 0: *sine = s, *cosine = c; break;
     case 1: *sine = c, *cosine = -s; break;
@@ -167,15 +165,13 @@ void gi_sincos_degrees(double degrees, double *sine, double *cosine) {
 }
 
 void gi_sincos(double x, double *sine, double *cosine) {
-    /* pi/2 in three parts (Cody and Waite 1980); the first two have 33 bits, so that their products
-     * with a quarter up to 2^20 are exact. */
-    static const double part[] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};
+    const double *part = gi_quarter_parts;
     if (!(fabs(x) <= 1e6)) x = isinf(x) ? NAN : fmod(x, 6.2831853071795865);
     if (isnan(x)) {
         *sine = *cosine = x;
         return;
     }
-    double quarter = floor(x * 0.63661977236758134 + 0.5);
+    double quarter = floor(x * GI_QUARTERS + 0.5);
     double r = ((x - quarter * part[0]) - quarter * part[1]) - quarter * part[2];
     sincos_of_quarter((int)quarter, r, sine, cosine);
 }
@@ -184,22 +180,18 @@ void gi_sincos(double x, double *sine, double *cosine) {
  * atan(y / x) = atan(c) + atan((y - c x) / (x + c y)), and what is left is at most 1/16 (a little
  * more by rounding), where seven terms of the series do. */
 static double atan_of_octant(double y, double x) {
-    static const double atan_of_eighths[] = {0, 0.12435499454676144, 0.24497866312686414,
-        0.35877067027057225, 0.4636476090008061, 0.5585993153435624, 0.6435011087932844,
-        0.7188299996216245, 0.7853981633974483};
-    static const double series[] = {
-        -1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
     int eighth = (int)(y / x * 8 + 0.5);
     double c = eighth * 0.125;
     double z = (y - c * x) / (x + c * y), q = z * z;
-    return atan_of_eighths[eighth] + (z + z * (q * polynomial(series, 7, q)));
+    return gi_atan_of_eighths[eighth] +
+           (z + z * (q * polynomial(gi_atan_series, GI_ATAN_TERMS, q)));
 }
 
 /* The angle of the ray to (x, y) above the axis: both finite, one of them not small. Pi and pi/2
  * are taken with what they lack. */
 static double angle_above(double y, double x) {
     double angle = y <= x ? atan_of_octant(y, x) : atan_of_octant(x, y);
-    return y <= x ? angle : 1.5707963267948966 - (angle - 6.1232339957367660e-17);
+    return y <= x ? angle : GI_HALF_PI - (angle - GI_HALF_PI_REST);
 }
 
 double gi_atan2(double y, double x) {

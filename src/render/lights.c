@@ -227,37 +227,6 @@ static void draw_pair(const GiStage *stage, int i, uint32_t purpose, double u[2]
     gi_sample_2d(&sampler, gi_stage_dimension(scratch->spots[i].level, purpose), u);
 }
 
-static bool directional_beam(const GiStage *stage, const GiLight *light, int i, GiBeam *beam) {
-    *beam = (GiBeam){.direction = gi_normalize(light->direction),
-        .light = light->intensity,
-        .t_min = away_of(stage, i),
-        .t_max = INFINITY,
-        .distance = INFINITY};
-    return true;
-}
-
-/* One point of the rectangle, drawn anew for every point of a surface. */
-static bool rectangle_beam(const GiStage *stage, size_t index, int i, GiBeam *beam) {
-    const GiWorld *world = stage->world;
-    const GiLightRectangle *rectangle = &world->lights.data[index];
-    GiVec from = point_at(&stage->scratch->points, i), to;
-    double u[2];
-    draw_pair(stage, i, GI_PURPOSE_LIGHT + (uint32_t)index, u);
-    double factor = gi_rectangle_sample_angle(rectangle, from, u, &to);
-    if (!(factor > 0)) return false;
-    GiVec offset = gi_sub(to, from);
-    double distance = gi_length(offset);
-    *beam = (GiBeam){.direction = gi_scale(offset, 1 / distance),
-        .light = gi_scale(world->scene->lights.data[index].intensity, factor),
-        .t_min = away_of(stage, i),
-        /* Not as far as the rectangle itself, which may be a surface. */
-        .t_max = distance - (gi_largest(to) + distance) * GI_SURFACE_ERROR,
-        .distance = distance,
-        .density = world->rules->area_light_visible ? 1 / factor : 0,
-        .radiance = true};
-    return true;
-}
-
 static bool sky_beam(const GiStage *stage, int i, GiBeam *beam) {
     double u[2];
     GiVec direction, radiance;
@@ -284,20 +253,54 @@ static void add_ambient(const GiStage *stage, size_t index) {
     }
 }
 
-static void add_beams(const GiStage *stage, size_t index) {
+static void add_directional(const GiStage *stage, size_t index) {
     const GiLight *light = &stage->world->scene->lights.data[index];
-    bool directional = light->type == GLINT_LIGHT_DIRECTIONAL;
     BeamBatch batch;
     batch.count = 0;
     for (int i = 0; i < stage->scratch->points.count; i++) {
         if (i % 16 == 0 && gi_stage_stopped(stage)) return;
-        GiBeam beam;
-        bool any = directional ? directional_beam(stage, light, i, &beam)
-                               : rectangle_beam(stage, index, i, &beam);
-        if (any) {
-            add_beam(stage, (int)index, i, &beam, &batch);
-        } else if (gi_stage_records(stage)) {
-            gi_record_no_beam(stage, (int)index, i);
+        const GiBeam beam = {.direction = gi_normalize(light->direction),
+            .light = light->intensity,
+            .t_min = away_of(stage, i),
+            .t_max = INFINITY,
+            .distance = INFINITY};
+        add_beam(stage, (int)index, i, &beam, &batch);
+    }
+    flush_beams(stage, &batch);
+}
+
+/* One point of the rectangle, drawn anew for every point of a surface. */
+static void add_rectangle(const GiStage *stage, size_t index) {
+    const GiWorld *world = stage->world;
+    const GiPoints *points = &stage->scratch->points;
+    GiVec intensity = world->scene->lights.data[index].intensity;
+    GiPairs pairs = {.u = {0}};
+    GiAreaBeams to;
+    BeamBatch batch;
+    batch.count = 0;
+    for (int begin = 0, count; begin < points->count; begin += count) {
+        if (gi_stage_stopped(stage)) return;
+        int left = points->count - begin;
+        count = left < GI_AREA_TOGETHER ? left : GI_AREA_TOGETHER;
+        for (int k = 0; k < count; k++) {
+            double u[2];
+            draw_pair(stage, begin + k, GI_PURPOSE_LIGHT + (uint32_t)index, u);
+            pairs.u[k] = u[0], pairs.v[k] = u[1];
+        }
+        world->kernel->area(&world->lights.data[index], points, begin, count, &pairs, &to);
+        for (int k = 0; k < count; k++) {
+            if (to.factor[k] > 0) {
+                const GiBeam beam = {.direction = gi_vec(to.dx[k], to.dy[k], to.dz[k]),
+                    .light = gi_scale(intensity, to.factor[k]),
+                    .t_min = away_of(stage, begin + k),
+                    .t_max = to.t_max[k],
+                    .distance = to.distance[k],
+                    .density = world->rules->area_light_visible ? 1 / to.factor[k] : 0,
+                    .radiance = true};
+                add_beam(stage, (int)index, begin + k, &beam, &batch);
+            } else if (gi_stage_records(stage)) {
+                gi_record_no_beam(stage, (int)index, begin + k);
+            }
         }
     }
     flush_beams(stage, &batch);
@@ -320,9 +323,9 @@ static void add_light(const GiStage *stage, size_t index) {
     switch (light->type) {
     case GLINT_LIGHT_POINT: add_point_light(stage, index); break;
     case GLINT_LIGHT_RECTANGLE:
-        if (scene->integrator != GLINT_INTEGRATOR_POINT_LIGHT) add_beams(stage, index);
+        if (scene->integrator != GLINT_INTEGRATOR_POINT_LIGHT) add_rectangle(stage, index);
         break;
-    case GLINT_LIGHT_DIRECTIONAL: add_beams(stage, index); break;
+    case GLINT_LIGHT_DIRECTIONAL: add_directional(stage, index); break;
     case GLINT_LIGHT_AMBIENT:
     case GLINT_LIGHT_CONSTANT:
     case GLINT_LIGHT_NORMAL: add_ambient(stage, index); break;
