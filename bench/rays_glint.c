@@ -99,7 +99,7 @@ static RayPass trace_shadow(const GiStage *stage, const RaySet *set) {
     for (size_t i = 0; i < set->part_count; i++) {
         load_part(scratch, set, &set->parts[i]);
         double start = rays_seconds();
-        gi_lights_trace(stage, set->parts[i].light);
+        gi_lights_trace(stage, set->parts[i].light, false);
         for (int k = 0; k < scratch->lit.count; k++) pass.hit_count += scratch->lit.arrives[k] == 0;
         pass.seconds += rays_seconds() - start;
     }

@@ -36,7 +36,7 @@ for file in src/*/*.h; do
     # Parts of kernel.c, which sets the stage for them.
     src/kernel/wide*.h | src/kernel/area.h | src/kernel/single.h | src/kernel/frustum.h | \
         src/kernel/bundle.h | src/kernel/certain.h | src/kernel/decide.h | src/kernel/inside.h | \
-        src/kernel/solid.h | src/kernel/gamma.h | src/kernel/light.h | src/kernel/many.h | \
+        src/kernel/solid.h | src/kernel/gamma.h | src/kernel/light.h | src/kernel/many.h | src/kernel/parallel.h | \
         src/kernel/regroup_order.h | src/kernel/stream.h | src/kernel/triangle.h | \
         *_template.h) continue ;;
     esac

@@ -206,7 +206,8 @@ static void check_point(const Shone *shone, const GiPointLight *light, const GiS
     at.normal = gi_vec(p->nx[i], p->ny[i], p->nz[i]);
     at.toward_viewer = gi_vec(p->vx[i], p->vy[i], p->vz[i]);
     GiVec d = gi_sub(light->position, gi_vec(p->px[i], p->py[i], p->pz[i]));
-    double square = gi_dot(d, d), inverse = 1 / sqrt(square);
+    if (light->parallel) d = light->position;
+    double square = light->parallel ? 1 : gi_dot(d, d), inverse = 1 / sqrt(square);
     GiVec e = light->falls ? gi_scale(light->intensity, 1 / square) : light->intensity;
     GiVec adds = gi_multiply(e, gi_bsdf_evaluate(&at, gi_scale(d, inverse)));
     if (!(square > 0) || gi_vec_is_zero(adds)) return;
@@ -225,8 +226,15 @@ static void check_kernel(Shone *shone, Random *random, const GiKernel *kernel) {
     GiShading at = shading_of(&shader, year, gi_vec(0, 0, 1));
     GiGloss gloss;
     CHECK(gi_lights_gloss(at.rules, &shader, &gloss));
-    const GiPointLight light = {
-        random_vec(random, -1, 1), random_vec(random, 0, 2), random_below(random, 2) != 0};
+    GiPointLight light = {.position = random_vec(random, -1, 1),
+        .intensity = random_vec(random, 0, 2),
+        .falls = random_below(random, 2) != 0};
+    if (random_below(random, 3) == 0) {
+        light.position = gi_normalize(light.position);
+        light.falls = false;
+        light.parallel = true;
+        light.part = 0.01;
+    }
     enum { COUNT = 100 };
     GiPoints *p = &shone->points;
     for (int i = 0; i < COUNT; i++) {

@@ -417,6 +417,62 @@ static void fill_bundle(
     }
 }
 
+/* ---------------------------------------------------------------- parallel rays */
+
+/* Rays in one direction through anything: places on shapes, the same place nearly, or all over the
+ * scene; they begin on it, before it or behind it, and some very far away. */
+static GiVec fill_parallel(
+    const Fixture *fixture, GiBundle *bundle, int use, Room room, Random *random) {
+    static const double lengths[] = {1, 1, 1e-9, 1e9};
+    GiVec d = random_below(random, 2) ? nasty_direction(random) : random_unit(random);
+    d = gi_scale(d, lengths[random_below(random, 4)]);
+    double step = room.size / gi_length(d);
+    bundle->side = random_below(random, 2) ? gi_vec(0, 0, 0) : random_vec(random, -1, 1);
+    GiVec middle = gi_along(room.at, random_vec(random, -1, 1), room.size);
+    for (int i = 0; i < bundle->count; i++) {
+        GiVec p = gi_along(room.at, random_vec(random, -1, 1), 1.5 * room.size);
+        if (use == 1) p = gi_along(middle, random_vec(random, -1, 1), 1e-5 * room.size);
+        if (use == 2 && fixture->things.count > 0) {
+            p = nasty_point(fixture, nasty_thing(fixture, random), random);
+            p = gi_along(p, random_vec(random, -1, 1), room.size * fabs(random_tiny(random)));
+        }
+        double back = random_below(random, 3) ? random_real(random, -1, 4) : 0;
+        if (random_below(random, 64) == 0) back *= pow(10, random_real(random, 1, 7));
+        set_any(bundle, i, gi_along(p, d, -back * step), random_below(random, 2) ? 0 : 1e-9 * step);
+        GiVec o = gi_vec(bundle->ox[i], bundle->oy[i], bundle->oz[i]);
+        GiTraceRay ray = {o, d, bundle->t_min[i], INFINITY, GI_SHAPE_NONE, GI_SHAPE_NONE};
+        if (i % 7 == 0) nasty_limits(fixture, true, random, &ray);
+        if (i % 5 == 0 && fixture->things.count > 0) {
+            Thing thing = nasty_thing(fixture, random);
+            ray.skip = thing.ref.bits, ray.skip_instance = thing.instance;
+        }
+        bundle->t_min[i] = ray.t_min;
+        bundle->skip[i] = ray.skip, bundle->skip_instance[i] = ray.skip_instance;
+    }
+    return d;
+}
+
+static void check_parallel(
+    const Fixture *fixture, GiBundle *bundle, GiVec direction, const char *what) {
+    static GiTraceRay rays[GI_BUNDLE_SIZE];
+    static GiTraceHit expected[GI_BUNDLE_SIZE];
+    for (int i = 0; i < bundle->count; i++) {
+        rays[i] = (GiTraceRay){gi_vec(bundle->ox[i], bundle->oy[i], bundle->oz[i]), direction,
+            bundle->t_min[i], INFINITY, bundle->skip[i], bundle->skip_instance[i]};
+        brute_force(fixture, &rays[i], &expected[i]);
+    }
+    const GiKernel *kernel;
+    for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
+        kernel->bundle_parallel(&fixture->world.trace, bundle, direction);
+        for (int i = 0; i < bundle->count; i++) {
+            bool meets = expected[i].shape.bits != GI_SHAPE_NONE;
+            if ((bundle->shape[i] != GI_SHAPE_NONE) == meets) continue;
+            report(what, kernel, "bundle parallel", &rays[i], meets ? &nothing : &something,
+                &expected[i]);
+        }
+    }
+}
+
 /* ---------------------------------------------------------------- tests */
 
 static const Room rooms[] = {{{0, 0, 0}, 1}, {{0, 0, 0}, 1e-6}, {{0, 0, 0}, 1e6},
@@ -448,6 +504,11 @@ static void pass_gate(
         bundle.count = counts[random_below(&random, 9)];
         fill_bundle(&fixture, &bundle, (Spread)(i / 2 % SPREAD_COUNT), room, any, &random);
         check_bundle(&fixture, &bundle, any, what);
+    }
+    for (int i = 0; i < bundle_count / 2; i++) {
+        bundle.count = counts[random_below(&random, 9)];
+        GiVec direction = fill_parallel(&fixture, &bundle, i % 3, room, &random);
+        check_parallel(&fixture, &bundle, direction, what);
     }
     if (wrong > 3) test_fail(__FILE__, __LINE__, "%s: %d are wrong", what, wrong);
     fixture_end(&fixture);
@@ -491,5 +552,45 @@ static void interior_rule(void) {
     }
 }
 
+/* Rays that begin on a floor, or next to it, with the sun overhead: the floor's triangles have one
+ * depth, which is the rays' own. */
+static void sun_over_floors(void) {
+    enum { SIDE = 6 };
+    static GiBundle bundle;
+    Random random = {41};
+    for (int round = 0; round < 12; round++) {
+        Fixture fixture;
+        double height = round % 3 == 0 ? 0 : random_real(&random, -1, 1);
+        fixture_begin(&fixture, GLINT_DIALECT_2018B);
+        mesh_begin(&fixture.scene);
+        for (int i = 0; i < (SIDE + 1) * (SIDE + 1); i++) {
+            mesh_position(&fixture.scene,
+                gi_vec(i % (SIDE + 1) / 3.0 - 1, (double)(i / (SIDE + 1)) / 3 - 1, height));
+        }
+        for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+            uint32_t a = i / SIDE * (SIDE + 1) + i % SIDE, b = a + SIDE + 1;
+            mesh_triangle(&fixture.scene, a, a + 1, b);
+            mesh_triangle(&fixture.scene, a + 1, b + 1, b);
+        }
+        CHECK(gi_scene_place(&fixture.scene, GI_SHAPE_NONE, mesh_surface(&fixture.scene)));
+        fixture_commit(&fixture, gi_kernel_at(0));
+        GiVec direction = gi_vec(0, 0, round % 2 ? 1 : -2);
+        if (round % 4 == 3) direction.x = random_tiny(&random);
+        bundle.count = GI_BUNDLE_SIZE;
+        bundle.side = gi_vec(0, 0, 0);
+        for (int i = 0; i < bundle.count; i++) {
+            GiVec o = random_vec(&random, -1.1, 1.1);
+            o.z = (double)(float)height;
+            if (i % 3 == 0) o.z += random_tiny(&random);
+            if (i % 7 == 0) o.z += random_real(&random, -1, 1);
+            set_any(&bundle, i, o, i % 2 ? 0 : fabs(random_tiny(&random)));
+        }
+        wrong = 0;
+        check_parallel(&fixture, &bundle, direction, "sun over a floor");
+        CHECK_INT(wrong, 0);
+        fixture_end(&fixture);
+    }
+}
+
 const GiTest tests_gate[] = {TEST(few_of_each_kind), TEST(hundred_of_each_kind),
-    TEST(thousands_of_each_kind), TEST(interior_rule), TEST_END};
+    TEST(thousands_of_each_kind), TEST(interior_rule), TEST(sun_over_floors), TEST_END};

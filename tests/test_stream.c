@@ -331,8 +331,8 @@ static int check_own(const GiKernel *kernel, Streams *s, Random *random, GiShape
     for (int i = 0; i < COUNT; i++) {
         GiVec p = vec_at(points->px, points->py, points->pz, i);
         GiVec n = vec_at(points->nx, points->ny, points->nz, i);
-        const GiPointLight light = {
-            slanting_light(random, p, n, points->error[i]), gi_vec(1, 1, 1), false};
+        const GiPointLight light = {.position = slanting_light(random, p, n, points->error[i]),
+            .intensity = gi_vec(1, 1, 1)};
         const GiGloss gloss = {.diffuse = gi_vec(1, 1, 1),
             .diffuse_factor = 1,
             .away = random_below(random, 2) ? points->error[i] * pow(10, random_real(random, -6, 1))

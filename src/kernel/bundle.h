@@ -131,6 +131,8 @@ static inline void tile_note(Tile *tile, Test test) {
     }
 }
 
+#include "kernel/parallel.h"
+
 /* The boxes of a block that are large: floors and the like. */
 static inline void block_large(Tile *tile, const GiBoxBlock *block, const Rectangles *rectangles,
     unsigned bits, unsigned groups) {
@@ -194,8 +196,12 @@ static inline void tile_block(Tile *tile, Entry entry) {
     for (unsigned rest = bits; rest != 0; rest &= rest - 1) {
         prefetch_small(tile, block->shape[lowest_bit(rest)]);
     }
-    if (large != 0) block_large(tile, block, &rectangles, large, entry.groups);
-    block_small(tile, block, &rectangles, &solids, bits & ~large, entry.groups);
+    if (tile->frustum.parallel) {
+        parallel_block(tile, block, &rectangles, bits, entry.groups);
+    } else {
+        if (large != 0) block_large(tile, block, &rectangles, large, entry.groups);
+        block_small(tile, block, &rectangles, &solids, bits & ~large, entry.groups);
+    }
     tile_noted(tile, tile->test_count);
 }
 
@@ -225,6 +231,11 @@ static inline void tile_balls(Tile *tile, Entry entry) {
     unsigned bits = tile_spheres(&tile->frustum, block, &rectangles, &spheres);
     Pairs pairs;
     tile_pairs(tile, &rectangles, bits, entry.groups, &pairs);
+    if (tile->frustum.parallel) {
+        parallel_balls(tile, block, &rectangles, &spheres, &pairs);
+        tile_noted(tile, tile->test_count);
+        return;
+    }
     Verdict verdicts[GI_TREE_WIDTH * GI_PACKET_COUNT + 1];
     if (tile->any) {
         balls_verdicts(tile, true, &rectangles, &spheres, &pairs, verdicts);
@@ -240,6 +251,10 @@ static inline void tile_balls(Tile *tile, Entry entry) {
 }
 
 static inline void tile_leaf(Tile *tile, Entry entry) {
+    if (tile->frustum.parallel) {
+        parallel_leaf(tile, entry);
+        return;
+    }
     Rectangles rectangles;
     Edges edges;
     uint32_t first = gi_child_first(entry.child);
@@ -419,7 +434,10 @@ static inline void bundle_run(Tile *tile) {
         tile_pad(tile);
         tile_apex(tile);
         tile->toward = tile->any ? gi_negate(w) : w;
-        if (tile->any ? tile_packets(tile, true, u, v) : tile_packets(tile, false, u, v)) {
+        bool placed = tile->frustum.parallel ? parallel_packets(tile, u, v)
+                      : tile->any            ? tile_packets(tile, true, u, v)
+                                             : tile_packets(tile, false, u, v);
+        if (placed) {
             tile_axes(tile, u, v, w);
             tile_walk(tile);
             if (!tile->any && !bundle->without_t) tile_close(tile);
@@ -437,11 +455,12 @@ static bool bundle_inside(const Tile *outer, uint32_t instance, GiBundle *inner,
     tile.apart = apart;
     tile.bundle = inner;
     tile.any = outer->any;
+    tile.frustum.parallel = outer->frustum.parallel;
     bundle_run(&tile);
     return tile.stopped;
 }
 
-static inline void bundle_trace(const GiTrace *trace, GiBundle *bundle, bool any) {
+static inline void bundle_trace(const GiTrace *trace, GiBundle *bundle, bool any, bool parallel) {
     Tile tile;
     tile.tree = trace->tree;
     tile.shapes = trace->shapes;
@@ -449,13 +468,26 @@ static inline void bundle_trace(const GiTrace *trace, GiBundle *bundle, bool any
     tile.apart = 0;
     tile.bundle = bundle;
     tile.any = any;
+    tile.frustum.parallel = parallel;
     bundle_run(&tile);
 }
 
 static void GI_KERNEL(bundle_closest)(const GiTrace *trace, GiBundle *bundle) {
-    bundle_trace(trace, bundle, false);
+    bundle_trace(trace, bundle, false, false);
 }
 
 static void GI_KERNEL(bundle_any)(const GiTrace *trace, GiBundle *bundle) {
-    bundle_trace(trace, bundle, true);
+    bundle_trace(trace, bundle, true, false);
+}
+
+static void GI_KERNEL(bundle_parallel)(const GiTrace *trace, GiBundle *bundle, GiVec direction) {
+    for (int i = 0; i < bundle->count; i++) {
+        bundle->dx[i] = direction.x;
+        bundle->dy[i] = direction.y;
+        bundle->dz[i] = direction.z;
+    }
+    bundle->apex = gi_vec(0, 0, 0);
+    bundle->own = true;
+    bundle->end = INFINITY;
+    bundle_trace(trace, bundle, true, true);
 }

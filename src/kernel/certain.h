@@ -37,6 +37,23 @@ static inline Reach reach_of(const F center[3], const F extent[3]) {
         center[1] + extent[1], center[2] - extent[2], center[2] + extent[2]};
 }
 
+/* As rectangles_of, of bundles whose rays are parallel. */
+static inline unsigned rectangles_across(
+    const Frustum *frustum, int i, const Reach *reach, Rectangles *rectangles) {
+    const F wider = f_of(GI_PARALLEL_WIDER), near = reach->z0 - wider;
+    F a0 = reach->x0 - wider, a1 = reach->x1 + wider, b0 = reach->y0 - wider;
+    F b1 = reach->y1 + wider;
+    f_store(rectangles->a0 + i, a0);
+    f_store(rectangles->a1 + i, a1);
+    f_store(rectangles->b0 + i, b0);
+    f_store(rectangles->b1 + i, b1);
+    f_store(rectangles->near + i, near);
+    return (f_less_equal(a0, f_of(frustum->a1)) & f_less_equal(f_of(frustum->a0), a1) &
+               f_less_equal(b0, f_of(frustum->b1)) & f_less_equal(f_of(frustum->b0), b1) &
+               f_less_equal(near, f_of(frustum->far)))
+           << i;
+}
+
 /* (x, y) / z over all z of a shape, which is farthest out at the nearest or the farthest z. A
  * shape that reaches the apex' own plane covers everything. Returns the bits of those that may
  * concern the tile. */
@@ -44,6 +61,7 @@ static inline unsigned rectangles_of(
     const Frustum *frustum, int i, const Reach *reach, Rectangles *rectangles) {
     const F x0 = reach->x0, x1 = reach->x1, y0 = reach->y0, y1 = reach->y1;
     const F z0 = reach->z0, z1 = reach->z1, one = f_of(1);
+    if (frustum->parallel) return rectangles_across(frustum, i, reach, rectangles);
     F near_scale = one / z0, far_scale = one / z1;
     F a0 = f_min(x0 * near_scale, x0 * far_scale), a1 = f_max(x1 * near_scale, x1 * far_scale);
     F b0 = f_min(y0 * near_scale, y0 * far_scale), b1 = f_max(y1 * near_scale, y1 * far_scale);

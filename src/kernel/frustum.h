@@ -6,6 +6,9 @@
 /* Sixteen roundings: what rays as points, and depths, are widened by. */
 #define GI_WIDER 0x1p-20f
 
+/* And where rays are parallel, shapes and depths. */
+#define GI_PARALLEL_WIDER (4 * GI_WIDER)
+
 typedef struct Packets {
     /* Rectangle, widened; farthest depth that matters, negative when no ray is left. */
     float a0[GI_PACKET_COUNT], a1[GI_PACKET_COUNT], b0[GI_PACKET_COUNT], b1[GI_PACKET_COUNT];
@@ -19,6 +22,7 @@ typedef struct Groups {
 } Groups;
 
 typedef struct Frustum {
+    bool parallel; /* the apex is infinitely far away (parallel.h) */
     float apex[3], margin;
     float axis[3][3];      /* u, v, w as rows */
     float extent[3][3][8]; /* see frustum_extents */
@@ -231,6 +235,17 @@ static inline void packets_enclose(Tile *tile, int k) {
     f_store(packets->far + k, f_ends(tile->far + first, true));
 }
 
+/* So many packets have rays that look for something. */
+static inline void packets_begin(Tile *tile, int count) {
+    for (int k = 0; k < GI_PACKET_COUNT; k++) {
+        tile->alive[k] = k < count ? 0xffff : 0;
+        tile->open[k] = 0;
+    }
+    for (int k = count; k < GI_PACKET_COUNT; k++) packet_clear(&tile->packets, k);
+    int rest = tile->bundle->count % GI_PACKET_SIZE;
+    if (rest != 0) tile->alive[tile->bundle->count / GI_PACKET_SIZE] = (1u << rest) - 1;
+}
+
 /* Rectangle and depths of the packets. False when a ray is too oblique to the axis. */
 static inline bool tile_packets(Tile *tile, bool any, GiVec u, GiVec v) {
     GiBundle *bundle = tile->bundle;
@@ -244,13 +259,7 @@ static inline bool tile_packets(Tile *tile, bool any, GiVec u, GiVec v) {
         }
         packets_enclose(tile, k);
     }
-    for (int k = 0; k < GI_PACKET_COUNT; k++) {
-        tile->alive[k] = k < count ? 0xffff : 0;
-        tile->open[k] = 0;
-    }
-    for (int k = count; k < GI_PACKET_COUNT; k++) packet_clear(&tile->packets, k);
-    int rest = bundle->count % GI_PACKET_SIZE;
-    if (rest != 0) tile->alive[bundle->count / GI_PACKET_SIZE] = (1u << rest) - 1;
+    packets_begin(tile, count);
     double depths[GI_DOUBLES], most = 0;
     r_store(depths, deepest);
     for (int i = 0; i < GI_DOUBLES; i++) most = fmax(most, depths[i]);
@@ -290,17 +299,18 @@ static inline void tile_enclose(Tile *tile) {
     tile_refresh_far(tile);
 }
 
-/* Where the apex is, before anything else. */
+/* Where the apex is, before anything else. What is infinitely far away is seen from the centre. */
 static inline void tile_apex(Tile *tile) {
     Frustum *frustum = &tile->frustum;
     const GiTree *tree = tile->tree;
-    GiVec apex = gi_scale(gi_sub(tile->bundle->apex, tree->center), tree->scale);
+    GiVec from = frustum->parallel ? tree->center : tile->bundle->apex;
+    GiVec apex = gi_scale(gi_sub(from, tree->center), tree->scale);
     double largest = fmax(fabs(apex.x), fmax(fabs(apex.y), fabs(apex.z)));
     frustum->apex[0] = (float)apex.x;
     frustum->apex[1] = (float)apex.y;
     frustum->apex[2] = (float)apex.z;
     frustum->margin = (float)(GI_TREE_GROWTH * largest + tile->apart * tree->scale);
-    seen_from_init(&frustum->seen, tile->bundle->apex, tile->apart, tree->scale);
+    seen_from_init(&frustum->seen, from, tile->apart, tree->scale);
     frustum->lost = frustum->seen.error < 0x1p100f ? frustum->seen.error : 0x1p100f;
 }
 

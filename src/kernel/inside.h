@@ -106,7 +106,8 @@ static void tile_instance(Tile *tile, int first) {
     inner.stop_context = tile->bundle->stop_context;
     /* Sixteen roundings of the numbers that a point's image is the sum of. */
     double largest = gi_largest(tile->bundle->apex), apart = 0;
-    for (int row = 0; row < 3; row++) {
+    const int rows = tile->frustum.parallel ? 0 : 3; /* parallel lines need not meet */
+    for (int row = 0; row < rows; row++) {
         const double *m = to_object->m[row];
         double sum = (fabs(m[0]) + fabs(m[1]) + fabs(m[2])) * largest + fabs(m[3]);
         if (apart < sum) apart = sum;

@@ -44,6 +44,7 @@ const GiKernel GI_KERNEL(kernel) = {
     GI_KERNEL(many_any),
     GI_KERNEL(bundle_closest),
     GI_KERNEL(bundle_any),
+    GI_KERNEL(bundle_parallel),
     GI_KERNEL(view),
     GI_KERNEL(group),
     GI_KERNEL(points),

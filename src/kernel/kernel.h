@@ -88,6 +88,9 @@ typedef struct GiKernel {
     void (*many_any)(const GiTrace *trace, const GiTraceRay *rays, int count, bool *blocked);
     void (*bundle_closest)(const GiTrace *trace, GiBundle *bundle);
     void (*bundle_any)(const GiTrace *trace, GiBundle *bundle);
+    /* As bundle_any, of rays that all run in one direction, of any length but zero, without end:
+     * those to the sun. In: origins, t_min, skip and skip_instance; apex is not looked at. */
+    void (*bundle_parallel)(const GiTrace *trace, GiBundle *bundle, GiVec direction);
     /* Directions of the bundle's rays, and of a parallel camera's their origins, through the window
      * coordinates a and b. */
     void (*view)(const GiView *view, const double *a, const double *b, GiBundle *bundle);

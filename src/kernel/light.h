@@ -70,6 +70,10 @@ typedef struct Way {
 } Way;
 
 static inline Way way_to(const GiPointLight *light, const GiPoints *points, int i) {
+    if (light->parallel) {
+        Wide l = {R_OF(light->position.x), R_OF(light->position.y), R_OF(light->position.z)};
+        return (Way){l, R_OF(1), R_OF(1)};
+    }
     Wide d = {R_OF(light->position.x) - r_load(points->px + i),
         R_OF(light->position.y) - r_load(points->py + i),
         R_OF(light->position.z) - r_load(points->pz + i)};
@@ -121,6 +125,12 @@ static void GI_KERNEL(light)(const GiPoints *points, int begin, int end, const G
         r_store(lit->blue + i, color.z);
         r_store(lit->t_min + i, away * way.inverse);
         memset(lit->arrives + i, 0, GI_DOUBLES);
+        if (light->parallel) {
+            const GiVec *center = &light->center;
+            Wide from = {r_load(points->px + i) - R_OF(center->x),
+                r_load(points->py + i) - R_OF(center->y), r_load(points->pz + i) - R_OF(center->z)};
+            l = wide_along(l, from, R_OF(-light->part));
+        }
         r_append_floats(lit->x + count, l.x, bits);
         r_append_floats(lit->y + count, l.y, bits);
         r_append_floats(lit->z + count, l.z, bits);

@@ -42,6 +42,11 @@ typedef struct GiPoints {
 typedef struct GiPointLight {
     GiVec position, intensity;
     bool falls; /* off with the square of the distance */
+    /* Infinitely far away: `position` is the unit direction to it. Rays are told apart by where
+     * they begin, by as much as so far away from `center` the place 1 / part is. */
+    bool parallel;
+    GiVec center;
+    double part;
 } GiPointLight;
 
 /* A Lambertian or Blinn-Phong shader under a dialect's rules (shade/shade.h has the formulas). */
@@ -68,7 +73,7 @@ typedef struct GiLit {
     /* Of those points alone to which it adds something. */
     int count;
     uint32_t point[GI_POINT_ROOM];
-    float x[GI_POINT_ROOM], y[GI_POINT_ROOM], z[GI_POINT_ROOM]; /* unit direction */
+    float x[GI_POINT_ROOM], y[GI_POINT_ROOM], z[GI_POINT_ROOM]; /* unit direction, nearly */
 } GiLit;
 
 /* Toward a rectangle of light, from points that stand side by side. */

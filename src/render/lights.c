@@ -45,21 +45,28 @@ static GiVec point_at(const GiPoints *points, int i) {
     return gi_vec(points->px[i], points->py[i], points->pz[i]);
 }
 
+/* From a point, as far as it is, or of length 1. */
+static inline GiVec to_light(const GiPointLight *light, GiVec from) {
+    return light->parallel ? light->position : gi_sub(light->position, from);
+}
+
 /* The same as the kernels' light, for any shader. */
-static void light_segment(const GiStage *stage, const GiLight *light, const GiSegment *segment) {
+static void light_segment(const GiStage *stage, const GiLight *model, const GiPointLight *light,
+    const GiSegment *segment) {
     GiTileScratch *scratch = stage->scratch;
     const GiRules *rules = stage->world->rules;
     const GiPoints *points = &scratch->points;
     GiLit *lit = &scratch->lit;
     for (int i = segment->begin; i < segment->end; i++) {
         lit->arrives[i] = 0;
-        GiVec d = gi_sub(light->position, point_at(points, i));
-        double square = gi_dot(d, d);
+        GiVec d = to_light(light, point_at(points, i));
+        double square = light->parallel ? 1 : gi_dot(d, d);
         if (!(square > 0)) continue; /* the light is on the surface */
         double inverse = 1 / sqrt(square);
         GiVec l = gi_scale(d, inverse);
         GiShading at = gi_surface_shading(stage, i);
-        GiVec adds = gi_multiply(gi_shade_light(light, rules, square), gi_bsdf_evaluate(&at, l));
+        GiVec arrives = light->parallel ? light->intensity : gi_shade_light(model, rules, square);
+        GiVec adds = gi_multiply(arrives, gi_bsdf_evaluate(&at, l));
         if (gi_vec_is_zero(adds)) continue;
         double away = rules->shadow_distance > 0 ? rules->shadow_distance : points->error[i];
         int k = lit->count++;
@@ -67,6 +74,9 @@ static void light_segment(const GiStage *stage, const GiLight *light, const GiSe
         lit->t_min[i] = away * inverse;
         lit->skip[i] = points->skip[i];
         lit->point[k] = (uint32_t)i;
+        if (light->parallel) {
+            l = gi_along(l, gi_sub(point_at(points, i), light->center), -light->part);
+        }
         lit->x[k] = (float)l.x, lit->y[k] = (float)l.y, lit->z[k] = (float)l.z;
     }
 }
@@ -80,7 +90,7 @@ static bool spoil_shadow_ray(const GiRules *rules, GiTraceRay *ray) {
 }
 
 /* As gi_lights_trace, for shadows that are wrong: one ray at a time. */
-static void trace_spoiled(const GiStage *stage, GiVec light) {
+static void trace_spoiled(const GiStage *stage, GiVec light, bool parallel) {
     const GiPoints *points = &stage->scratch->points;
     GiLit *lit = &stage->scratch->lit;
     const GiWorld *world = stage->world;
@@ -88,16 +98,16 @@ static void trace_spoiled(const GiStage *stage, GiVec light) {
         if (k % 1024 == 0 && gi_stage_stopped(stage)) return;
         uint32_t i = lit->point[k];
         GiVec origin = point_at(points, (int)i);
-        GiTraceRay ray = {origin, gi_sub(light, origin), lit->t_min[i], 1, points->skip[i],
-            points->skip_instance[i]};
+        GiTraceRay ray = {origin, parallel ? light : gi_sub(light, origin), lit->t_min[i],
+            parallel ? INFINITY : 1, points->skip[i], points->skip_instance[i]};
         lit->arrives[i] =
             !spoil_shadow_ray(world->rules, &ray) || !world->kernel->any(&world->trace, &ray);
     }
 }
 
-void gi_lights_trace(const GiStage *stage, GiVec light) {
+void gi_lights_trace(const GiStage *stage, GiVec light, bool parallel) {
     if (stage->world->rules->shadows != GI_SHADOWS_CAST) {
-        trace_spoiled(stage, light);
+        trace_spoiled(stage, light, parallel);
         return;
     }
     GiTileScratch *scratch = stage->scratch;
@@ -117,7 +127,11 @@ void gi_lights_trace(const GiStage *stage, GiVec light) {
         bundle->own = false;
         bundle->side = scratch->regroup.side[begin / size];
         world->kernel->shadows(points, lit, order, bundle);
-        world->kernel->bundle_any(&world->trace, bundle);
+        if (parallel) {
+            world->kernel->bundle_parallel(&world->trace, bundle, light);
+        } else {
+            world->kernel->bundle_any(&world->trace, bundle);
+        }
         for (int i = 0; i < bundle->count; i++) {
             lit->arrives[bundle->pixel[i]] = bundle->shape[i] == GI_SHAPE_NONE;
         }
@@ -138,31 +152,38 @@ static void add_lit(const GiStage *stage) {
     }
 }
 
-static void trace_and_add(const GiStage *stage, const GiLight *light) {
+static void trace_and_add(const GiStage *stage, const GiPointLight *light) {
     GiTileScratch *scratch = stage->scratch;
-    gi_lights_trace(stage, light->position);
+    gi_lights_trace(stage, light->position, light->parallel);
     stage->counts->shadow_rays += (uint64_t)scratch->lit.count;
     if (!gi_stage_stopped(stage)) add_lit(stage);
 }
 
-static void add_point_light(const GiStage *stage, size_t index) {
+/* A point of light, or one that is infinitely far away. */
+static void add_small_light(const GiStage *stage, const GiLight *model, const GiPointLight *light) {
     GiTileScratch *scratch = stage->scratch;
     const GiWorld *world = stage->world;
-    const GiLight *light = &world->scene->lights.data[index];
-    const GiPointLight point = {
-        light->position, light->intensity, gi_shade_light_falls(light, world->rules)};
     scratch->lit.count = 0;
     for (int i = 0; i < scratch->segment_count; i++) {
         const GiSegment *segment = &scratch->segments[i];
         GiGloss gloss;
         if (gi_lights_gloss(world->rules, &world->scene->shaders.data[segment->shader], &gloss)) {
             world->kernel->light(
-                &scratch->points, segment->begin, segment->end, &point, &gloss, &scratch->lit);
+                &scratch->points, segment->begin, segment->end, light, &gloss, &scratch->lit);
         } else {
-            light_segment(stage, light, segment);
+            light_segment(stage, model, light, segment);
         }
     }
     if (scratch->lit.count > 0) trace_and_add(stage, light);
+}
+
+static void add_point_light(const GiStage *stage, size_t index) {
+    const GiWorld *world = stage->world;
+    const GiLight *light = &world->scene->lights.data[index];
+    const GiPointLight point = {.position = light->position,
+        .intensity = light->intensity,
+        .falls = gi_shade_light_falls(light, world->rules)};
+    add_small_light(stage, light, &point);
     if (gi_stage_records(stage)) gi_record_point_light(stage, index);
 }
 
@@ -253,7 +274,8 @@ static void add_ambient(const GiStage *stage, size_t index) {
     }
 }
 
-static void add_directional(const GiStage *stage, size_t index) {
+/* The same ray by ray, as it is written down when a pixel is to be explained. */
+static void record_directional(const GiStage *stage, size_t index) {
     const GiLight *light = &stage->world->scene->lights.data[index];
     BeamBatch batch;
     batch.count = 0;
@@ -267,6 +289,22 @@ static void add_directional(const GiStage *stage, size_t index) {
         add_beam(stage, (int)index, i, &beam, &batch);
     }
     flush_beams(stage, &batch);
+}
+
+static void add_directional(const GiStage *stage, size_t index) {
+    enum { FAR = 64 }; /* times the size of the scene: far enough for the order of rays */
+    const GiLight *light = &stage->world->scene->lights.data[index];
+    const GiTree *tree = &stage->world->store.tree;
+    const GiPointLight sun = {.position = gi_normalize(light->direction),
+        .intensity = light->intensity,
+        .parallel = true,
+        .center = tree->center,
+        .part = tree->scale / FAR};
+    if (gi_stage_records(stage)) {
+        record_directional(stage, index);
+    } else {
+        add_small_light(stage, light, &sun);
+    }
 }
 
 /* One point of the rectangle, drawn anew for every point of a surface. */

@@ -201,7 +201,7 @@ void gi_lights_add(const GiStage *stage);
 
 /* Traces the shadow rays of the lit to a point light, in an order of the kernels' liking, and fills
  * in which of them arrive. Less is done when it is to stop. */
-void gi_lights_trace(const GiStage *stage, GiVec light);
+void gi_lights_trace(const GiStage *stage, GiVec light, bool parallel);
 
 /* Whether the kernels know the shader's formula; *gloss is then made ready for them. */
 bool gi_lights_gloss(const GiRules *rules, const GiShader *shader, GiGloss *gloss);
