@@ -2,8 +2,8 @@
  * Triangles in bundles: what is certain in single precision is taken without the exact test. Here
  * are pairs of triangles with an edge in common, large or tiny, near or far, layers of them that
  * all but touch, and rays that graze edges or end about where they begin, by parts from a tenth to
- * a billionth; rays that begin on a triangle itself; and rays in the planes of triangles. Whoever
- * takes too much for certain disagrees with the formula. */
+ * a billionth; a mesh that is fine beside its rays; rays that begin on a triangle itself; and rays
+ * in the planes of triangles. Whoever takes too much for certain disagrees with the formula. */
 #include "brute.h"
 #include "meshes.h"
 #include "random.h"
@@ -59,17 +59,18 @@ static GiVec point_on(const Fixture *fixture, uint32_t triangle, Random *random)
     return p;
 }
 
-static void aim(
-    const Fixture *fixture, GiVec center, double size, bool any, GiBundle *bundle, Random *random) {
+/* The rays of a bundle, as many as it says, at triangles of a mesh of so many; more than half of
+ * them at the first eight, which may be a leaf. */
+static void aim(const Fixture *fixture, GiVec center, double size, int triangles, bool any,
+    GiBundle *bundle, Random *random) {
     double distance = pow(10, random_real(random, -0.5, 3));
     bundle->apex = gi_along(center, random_unit(random), size * distance);
     bundle->side = gi_vec(0, 0, 0);
-    bundle->count = GI_BUNDLE_SIZE;
     bundle->start = random_below(random, 2) ? 0 : random_real(random, 0, 1.5);
     bundle->end = random_below(random, 4) ? 1 : 1 - fabs(random_tiny(random));
     bundle->own = false;
     for (int i = 0; i < bundle->count; i++) {
-        uint32_t triangle = (uint32_t)random_below(random, 2 * LAYERS);
+        uint32_t triangle = (uint32_t)random_below(random, random_below(random, 2) ? 8 : triangles);
         GiVec p = point_on(fixture, triangle, random), o = bundle->apex;
         double part =
             random_below(random, 2) ? 1 + random_tiny(random) : random_real(random, 0.5, 2);
@@ -105,7 +106,38 @@ static void triangles_are_grazed(void) {
         double size = pow(10, random_real(&random, -4, 0.5));
         begin(&fixture, center, size, &random);
         for (int any = 0; any < 2; any++) {
-            aim(&fixture, center, size, any != 0, &bundle, &random);
+            bundle.count = GI_BUNDLE_SIZE;
+            aim(&fixture, center, size, 2 * LAYERS, any != 0, &bundle, &random);
+            bundle.without_t = random_below(&random, 4) == 0;
+            const GiKernel *kernel;
+            for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
+                CHECK_INT(bundle_differs(&fixture, kernel, any != 0, &bundle), 0);
+            }
+        }
+        fixture_end(&fixture);
+    }
+}
+
+/* A mesh whose leaves are small beside a packet's rectangle, so that few rays pass by most of them,
+ * or none: these are looked at ray by ray. From one packet to as many as are too many for that. */
+static void fine_meshes_are_grazed(void) {
+    enum { RINGS = 20, TRIANGLES = 4 * RINGS * (RINGS - 1) };
+    static GiBundle bundle;
+    Random random = {24};
+    for (int round = 0; round < 60; round++) {
+        Fixture fixture;
+        GiVec center = random_vec(&random, -1, 1);
+        double size = pow(10, random_real(&random, -3, 0.5));
+        GiShapeRef ref;
+        fixture_begin(&fixture, GLINT_DIALECT_2018B);
+        ref = mesh_sphere(&fixture.scene, center, size, RINGS, 0.1, false, true, &random);
+        CHECK(gi_scene_place(&fixture.scene, GI_SHAPE_NONE, ref));
+        CHECK(gi_scene_add_sphere(&fixture.scene, gi_vec(3, 3, 3), 1e-3, 0, &ref));
+        CHECK(gi_scene_place(&fixture.scene, GI_SHAPE_NONE, ref));
+        fixture_commit(&fixture, gi_kernel_at(0));
+        for (int any = 0; any < 2; any++) {
+            bundle.count = 8 + random_below(&random, round % 4 == 0 ? 200 : 60);
+            aim(&fixture, center, size, TRIANGLES, any != 0, &bundle, &random);
             bundle.without_t = random_below(&random, 4) == 0;
             const GiKernel *kernel;
             for (int k = 0; (kernel = gi_kernel_at(k)) != NULL; k++) {
@@ -169,7 +201,8 @@ static void triangles_are_left(void) {
         GiVec center = random_vec(&random, -1, 1);
         double size = pow(10, random_real(&random, -4, 0.5));
         begin(&fixture, center, size, &random);
-        aim(&fixture, center, size, false, &bundle, &random);
+        bundle.count = GI_BUNDLE_SIZE;
+        aim(&fixture, center, size, 2 * LAYERS, false, &bundle, &random);
         bundle.without_t = random_below(&random, 2) != 0;
         /* A light anywhere, or so low over the triangles that it all but lies in their planes. */
         GiVec light =
@@ -241,5 +274,5 @@ static void triangles_are_met_in_their_planes(void) {
     }
 }
 
-const GiTest tests_facets[] = {TEST(triangles_are_grazed), TEST(triangles_are_left),
-    TEST(triangles_are_met_in_their_planes), TEST_END};
+const GiTest tests_facets[] = {TEST(triangles_are_grazed), TEST(fine_meshes_are_grazed),
+    TEST(triangles_are_left), TEST(triangles_are_met_in_their_planes), TEST_END};

@@ -71,11 +71,12 @@ static inline void tile_flush(Tile *tile) {
 }
 
 /* A child that is still to be looked at, the depth it begins at, and bits of the groups of packets
- * that it may concern. */
+ * that it may concern. Sparse: it is so small that few rays pass by. */
 typedef struct Entry {
     uint32_t child;
     float enter;
     unsigned groups;
+    bool sparse;
 } Entry;
 
 /* Pairs of one lane of a leaf and a packet. */
@@ -250,6 +251,36 @@ static inline void tile_balls(Tile *tile, Entry entry) {
     tile_noted(tile, tile->test_count);
 }
 
+/* The pairs of a sparse leaf. Most of a packet's rays pass by all of its triangles, and sixteen of
+ * them are a lot to ask of each triangle, where one or two are near: rather ask those about eight
+ * triangles each. False when that would take longer, as there are many packets. */
+static inline bool tile_sparse_pairs(const Tile *tile, const Rectangles *rectangles,
+    const Edges *edges, unsigned bits, unsigned groups, Pairs *pairs) {
+    enum { FEW_PACKETS = 4, FEW_RAYS = 8 };
+    const Rectangles around = rectangle_around(rectangles);
+    uint32_t packets[FEW_PACKETS + 16];
+    int packet_count = 0, count = 0;
+    for (groups &= groups_overlaps(&tile->groups, &around, 0); groups != 0; groups &= groups - 1) {
+        int first = lowest_bit(groups) * GROUP_SIZE;
+        unsigned here = tile_overlaps(&tile->packets, &around, 0, first);
+        packet_count += sixteen_append(packets + packet_count, here, (uint32_t)first);
+        if (packet_count > FEW_PACKETS) return false;
+    }
+    for (int i = 0; i < packet_count; i++) {
+        unsigned rays = tile_rays(tile, &around, 0, (int)packets[i]);
+        unsigned lanes = __builtin_popcount(rays) > FEW_RAYS ? bits : 0;
+        for (; lanes != bits && rays != 0; rays &= rays - 1) {
+            int ray = (int)packets[i] * GI_PACKET_SIZE + lowest_bit(rays);
+            lanes |= bits & triangles_near(tile, rectangles, edges, ray);
+        }
+        for (; lanes != 0; lanes &= lanes - 1) {
+            pairs->pair[count++] = (uint32_t)lowest_bit(lanes) * GI_PACKET_COUNT + packets[i];
+        }
+    }
+    pairs->count = count;
+    return true;
+}
+
 static inline void tile_leaf(Tile *tile, Entry entry) {
     if (tile->frustum.parallel) {
         parallel_leaf(tile, entry);
@@ -262,7 +293,10 @@ static inline void tile_leaf(Tile *tile, Entry entry) {
     unsigned bits = tile_triangles(&tile->frustum, &tile->shapes->triangles, first,
         gi_child_count(entry.child), tile->any, &rectangles, &edges);
     Pairs pairs;
-    tile_pairs(tile, &rectangles, bits, entry.groups, &pairs);
+    if (!entry.sparse ||
+        !tile_sparse_pairs(tile, &rectangles, &edges, bits, entry.groups, &pairs)) {
+        tile_pairs(tile, &rectangles, bits, entry.groups, &pairs);
+    }
     int count = tile->test_count;
     for (int i = 0; i < pairs.count; i++) {
         uint32_t lane = pairs.pair[i] / GI_PACKET_COUNT, packet = pairs.pair[i] % GI_PACKET_COUNT;
@@ -315,28 +349,37 @@ static inline void tile_close(Tile *tile) {
     }
 }
 
-/* Whether the rectangle of a packet of these groups overlaps that of a box. */
+/* Whether a ray of these groups passes through the rectangle of a box, and looks so far. */
 static inline bool tile_concerns(
     const Tile *tile, const Rectangles *boxes, int lane, unsigned groups) {
-    unsigned packets = 0;
-    for (; groups != 0 && packets == 0; groups &= groups - 1) {
+    for (; groups != 0; groups &= groups - 1) {
         int first = lowest_bit(groups) * GROUP_SIZE;
-        packets = tile_overlaps(&tile->packets, boxes, lane, first);
+        unsigned packets = tile_overlaps(&tile->packets, boxes, lane, first);
+        for (; packets != 0; packets &= packets - 1) {
+            if (tile_rays(tile, boxes, lane, first + lowest_bit(packets)) != 0) return true;
+        }
     }
-    return packets != 0;
+    return false;
 }
 
-/* Pushes those children that concern a group of packets, the nearest on top. Triangles, whose
- * corners are all over the memory, are worth a closer look. */
+/* Pushes those children that concern a group of packets, the nearest on top. Two kinds are worth a
+ * closer look: triangles, whose corners are all over the memory, and what is small beside a
+ * packet's rectangle, so that it may well lie between the rays, or, with shadow rays, behind where
+ * they begin. How small was found by trial, in areas of a packet: of 4 million triangles 0.54 of
+ * the time for shadow rays, and no loss where shapes are large. */
 static inline int tile_push(const Tile *tile, Entry *stack, int count, const GiNode *node,
     const Rectangles *boxes, unsigned bits) {
+    enum { SMALL = 8, SPARSE = 4 };
+    const unsigned small = rectangles_below(boxes, SMALL * tile->area);
+    const unsigned sparse = rectangles_below(boxes, SPARSE * tile->area);
     int first = count;
     for (; bits != 0; bits &= bits - 1) {
         int i = lowest_bit(bits);
-        Entry entry = {node->child[i], boxes->near[i], groups_overlaps(&tile->groups, boxes, i)};
+        Entry entry = {node->child[i], boxes->near[i], groups_overlaps(&tile->groups, boxes, i),
+            sparse >> i & 1};
         if (entry.groups == 0) continue;
-        bool triangles = gi_child_kind(entry.child) == GI_CHILD_TRIANGLES;
-        if (triangles && !tile_concerns(tile, boxes, i, entry.groups)) continue;
+        bool closely = (small >> i & 1) | (gi_child_kind(entry.child) == GI_CHILD_TRIANGLES);
+        if (closely && !tile_concerns(tile, boxes, i, entry.groups)) continue;
         prefetch_child(tile->tree, tile->shapes, entry.child);
         int at = count++;
         for (; at > first && stack[at - 1].enter < entry.enter; at--) stack[at] = stack[at - 1];
@@ -358,7 +401,7 @@ static inline void tile_walk(Tile *tile) {
     Leaves leaves = {.count = 0};
     int count = 0;
     const unsigned all = (1u << GROUP_COUNT) - 1;
-    if (tree->root != GI_CHILD_NONE) stack[count++] = (Entry){tree->root, -INFINITY, all};
+    if (tree->root != GI_CHILD_NONE) stack[count++] = (Entry){tree->root, -INFINITY, all, false};
     while (count > 0 && !tile->stopped) {
         Entry top = stack[--count];
         if (!(top.enter <= tile->frustum.far)) continue;

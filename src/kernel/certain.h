@@ -166,6 +166,17 @@ static inline unsigned tile_boxes(
     return bits;
 }
 
+/* Bits of those rectangles that have less than this area. */
+static inline unsigned rectangles_below(const Rectangles *rectangles, float area) {
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        F width = f_load(rectangles->a1 + i) - f_load(rectangles->a0 + i);
+        F height = f_load(rectangles->b1 + i) - f_load(rectangles->b0 + i);
+        bits |= f_less(width * height, f_of(area)) << i;
+    }
+    return bits;
+}
+
 /* Of the groups, bits of those that one shape may concern. */
 static inline unsigned groups_overlaps(const Groups *groups, const Rectangles *shapes, int lane) {
     const F a0 = f_of(shapes->a0[lane]), a1 = f_of(shapes->a1[lane]), b0 = f_of(shapes->b0[lane]),

@@ -75,6 +75,7 @@ typedef struct Tile {
     Packets packets;
     Groups groups;
     Frustum frustum;
+    float area; /* of the packets' rectangles, the mean, to begin with */
     double scale;
     GiVec toward; /* along the rays: w, or for any its opposite */
     bool stopped;
@@ -328,6 +329,17 @@ static inline void frustum_extents(Frustum *frustum, int row) {
     extent[1][GI_SHAPE_SPHERE] = extent[1][GI_SHAPE_CONE] = extent[2][GI_SHAPE_SPHERE] = 0;
 }
 
+/* How large a packet's rectangle is, in the mean. */
+static inline float packets_area(const Tile *tile) {
+    const Packets *packets = &tile->packets;
+    int count = (tile->bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
+    float sum = 0;
+    for (int k = 0; k < count; k++) {
+        sum += (packets->a1[k] - packets->a0[k]) * (packets->b1[k] - packets->b0[k]);
+    }
+    return sum / (float)count;
+}
+
 static inline void tile_axes(Tile *tile, GiVec u, GiVec v, GiVec w) {
     Frustum *frustum = &tile->frustum;
     const GiVec rows[3] = {u, v, w};
@@ -337,6 +349,7 @@ static inline void tile_axes(Tile *tile, GiVec u, GiVec v, GiVec w) {
         frustum->axis[i][2] = (float)rows[i].z;
     }
     for (int row = 0; row < 3; row++) frustum_extents(frustum, row);
+    tile->area = packets_area(tile);
     tile_enclose(tile);
 }
 

@@ -63,7 +63,8 @@ static inline unsigned triangles_left(float corners[3][3][8], int i, F twice, F 
 
 /* The places of corners: (a, b) = (x, y) / depth. A corner r away, in single precision, errs by six
  * roundings of r in each of x, y and depth, so that with |a|, |b| <= m its place errs by less than
- * 16 roundings of (1 + m)^2, and by `error` (1 + m) / depth for the apex. */
+ * 10 roundings of (1 + m)^2, and by `error` (1 + m) / depth for the apex. Rectangles are widened by
+ * 16, which is enough for the four of a ray's own place too. */
 static inline unsigned tile_triangles(const Frustum *frustum, const GiTriangles *triangles,
     uint32_t first, uint32_t count, bool any, Rectangles *rectangles, Edges *edges) {
     float corners[3][3][8];
@@ -147,6 +148,37 @@ static inline unsigned tile_triangles(const Frustum *frustum, const GiTriangles 
         bits |= ((in & whole) | around) << i;
     }
     return bits & ((1u << count) - 1);
+}
+
+/* The rectangle round eight triangles, in lane 0. */
+static inline Rectangles rectangle_around(const Rectangles *rectangles) {
+    Rectangles around;
+    around.a0[0] = f_lowest(rectangles->a0, 8);
+    around.a1[0] = f_highest(rectangles->a1, 8);
+    around.b0[0] = f_lowest(rectangles->b0, 8);
+    around.b1[0] = f_highest(rectangles->b1, 8);
+    around.near[0] = f_lowest(rectangles->near, 8);
+    return around;
+}
+
+/* Bits of those of eight triangles that one ray does not certainly pass by or end before. */
+static inline unsigned triangles_near(
+    const Tile *tile, const Rectangles *rectangles, const Edges *edges, int ray) {
+    const F a = f_of(tile->a[ray]), b = f_of(tile->b[ray]), far = f_of(tile->far[ray]);
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i += GI_FLOATS) {
+        F slack = f_load(edges->slack + i), side[3];
+        for (int k = 0; k < 3; k++) {
+            side[k] = f_fused(f_load(edges->x[k] + i), a,
+                f_fused(f_load(edges->y[k] + i), b, f_load(edges->z[k] + i)));
+        }
+        F least = f_min(side[0], f_min(side[1], side[2]));
+        F most = f_max(side[0], f_max(side[1], side[2]));
+        bits |= ((f_less_equal(f_of(0) - slack, least) | f_less_equal(most, slack)) &
+                    f_less_equal(f_load(rectangles->near + i), far))
+                << i;
+    }
+    return bits;
 }
 
 /* 1 / depth of a triangle at the rays of a packet. */
