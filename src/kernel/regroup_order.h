@@ -34,9 +34,7 @@ static void store(float to[3], GiVec v) {
 /* A frame across the mean direction; u and v are arbitrary. */
 static Axes axes_of(const float *x, const float *y, const float *z, int count) {
     GiVec sum = {0, 0, 0};
-    for (int i = 0; i < count; i += 1 + count / 64) {
-        sum = gi_add(sum, gi_normalize(gi_vec(x[i], y[i], z[i])));
-    }
+    for (int i = 0; i < count; i += 1 + count / 64) sum = gi_add(sum, gi_vec(x[i], y[i], z[i]));
     GiVec w = gi_normalize(sum);
     if (gi_vec_is_zero(w)) w = gi_vec(0, 0, 1);
     GiVec u = gi_normalize(gi_cross(w, fabs(w.x) < 0.6 ? gi_vec(1, 0, 0) : gi_vec(0, 1, 0)));
@@ -170,15 +168,19 @@ typedef struct Counts {
     uint16_t of[TURNS][MOST_BUCKETS], all[MOST_BUCKETS];
 } Counts;
 
-static void count_buckets(const uint16_t *bucket, int count, int buckets, Counts *counts) {
+/* First the places in a slab become buckets. */
+static void count_buckets(const uint16_t *restrict across, const uint16_t slab[BUCKETS],
+    uint16_t *restrict bucket, int count, int buckets, Counts *counts) {
     for (int k = 0; k < TURNS; k++) {
         memset(counts->of[k], 0, (size_t)buckets * sizeof counts->of[k][0]);
     }
     int i = 0;
     for (; i + TURNS <= count; i += TURNS) {
-        for (int k = 0; k < TURNS; k++) counts->of[k][bucket[i + k]]++;
+        for (int k = 0; k < TURNS; k++) {
+            counts->of[k][bucket[i + k] ^= slab[across[i + k]]]++;
+        }
     }
-    for (int k = 0; i + k < count; k++) counts->of[k][bucket[i + k]]++;
+    for (int k = 0; i + k < count; k++) counts->of[k][bucket[i + k] ^= slab[across[i + k]]]++;
     for (int k = 0; k < buckets; k++) {
         counts->all[k] =
             (uint16_t)(counts->of[0][k] + counts->of[1][k] + counts->of[2][k] + counts->of[3][k]);
@@ -188,7 +190,6 @@ static void count_buckets(const uint16_t *bucket, int count, int buckets, Counts
 /* What order[i] is to be: the values bucket by bucket. The counts become places. */
 static void sort_by_bucket(
     const uint16_t *bucket, int count, int buckets, Counts *counts, uint16_t *order) {
-    count_buckets(bucket, count, buckets, counts);
     for (int i = 0, below = 0; i < buckets; i++) {
         int here = counts->all[i];
         counts->all[i] = (uint16_t)below;
@@ -237,8 +238,8 @@ static Turn pack(
     uint16_t slab[BUCKETS];
     find_slabs(across, count, slabs, slab);
     find_buckets(regroup->y, count, y, SLAB_BUCKETS, along);
-    for (int i = 0; i < count; i++) along[i] ^= slab[across[i]];
     Counts counts;
+    count_buckets(across, slab, along, count, slabs * SLAB_BUCKETS, &counts);
     sort_by_bucket(along, count, slabs * SLAB_BUCKETS, &counts, order);
     return turn;
 }
