@@ -148,6 +148,9 @@ static inline void block_large(Tile *tile, const GiBoxBlock *block, const Rectan
         int lane = (int)(pairs.pair[i] / GI_PACKET_COUNT);
         int packet = (int)(pairs.pair[i] % GI_PACKET_COUNT);
         GiShapeRef ref = block->shape[lane];
+        /* What rays start from is what they are said to spare, and whole packets of a floor's do.
+         */
+        if (tile->any && (tile->alive[packet] & ~spared_by(tile, ref, packet)) == 0) continue;
         Verdict verdict = box_verdict(tile, &boxes, lane, packet);
         unsigned rays = take_certain(tile, ref, packet, verdict);
         note_solid(tile, GI_SHAPE_BOX, (Test){ref, (uint32_t)packet, rays});

@@ -297,22 +297,22 @@ static inline void any_solids(Tile *tile, GiShapeKind kind, const Part *parts, i
 }
 
 /* Not inline, so that each has all registers to itself. */
-static NOINLINE void closest_spheres(Tile *tile, const Part *parts, int count) {
+static NOINLINE FLATTEN void closest_spheres(Tile *tile, const Part *parts, int count) {
     closest_solids(tile, GI_SHAPE_SPHERE, parts, count);
 }
-static NOINLINE void closest_boxes(Tile *tile, const Part *parts, int count) {
+static NOINLINE FLATTEN void closest_boxes(Tile *tile, const Part *parts, int count) {
     closest_solids(tile, GI_SHAPE_BOX, parts, count);
 }
-static NOINLINE void closest_cones(Tile *tile, const Part *parts, int count) {
+static NOINLINE FLATTEN void closest_cones(Tile *tile, const Part *parts, int count) {
     closest_solids(tile, GI_SHAPE_CONE, parts, count);
 }
-static NOINLINE void any_spheres(Tile *tile, const Part *parts, int count) {
+static NOINLINE FLATTEN void any_spheres(Tile *tile, const Part *parts, int count) {
     any_solids(tile, GI_SHAPE_SPHERE, parts, count);
 }
-static NOINLINE void any_boxes(Tile *tile, const Part *parts, int count) {
+static NOINLINE FLATTEN void any_boxes(Tile *tile, const Part *parts, int count) {
     any_solids(tile, GI_SHAPE_BOX, parts, count);
 }
-static NOINLINE void any_cones(Tile *tile, const Part *parts, int count) {
+static NOINLINE FLATTEN void any_cones(Tile *tile, const Part *parts, int count) {
     any_solids(tile, GI_SHAPE_CONE, parts, count);
 }
 

@@ -171,25 +171,37 @@ static inline R tile_depth(const Tile *tile, int i) {
     return tile_dot(tile->toward, dx, dy, dz);
 }
 
-/* The rays from i on as points, and how deep they end. What is too oblique to the axis, more than
- * 66 degrees, is noted, and the largest depth there is. */
-static inline void rays_place(Tile *tile, bool any, int i, GiVec u, GiVec v, M *oblique, R *most) {
+/* Rays along their bundle's axes, in doubles. */
+typedef struct Along {
+    R a[GI_PARTS], b[GI_PARTS], depth[GI_PARTS];
+} Along;
+
+/* What is not within the range of floats, perhaps: a and b become quotients. */
+static NOINLINE void rays_divide(Along *along) {
+    for (int k = 0; k < GI_PARTS; k++) {
+        /* What does not go along the axis becomes as oblique as can be. */
+        M forward = R_LESS(R_OF(0), along->depth[k]);
+        along->a[k] = R_SELECT(forward, along->a[k] / along->depth[k], R_OF(INFINITY));
+        along->b[k] = along->b[k] / along->depth[k];
+    }
+}
+
+/* The rays from i on as points, and how deep they end. Returns whether none is too oblique to the
+ * axis, more than 66 degrees; *most becomes the largest depth there is. */
+static inline bool rays_place(Tile *tile, bool any, int i, GiVec u, GiVec v, R *most) {
     const GiBundle *bundle = tile->bundle;
     const R one = R_OF(1);
-    R a[GI_PARTS], b[GI_PARTS], depth[GI_PARTS], end[GI_PARTS];
-    M tame = M_OF(true);
+    const unsigned all = (1u << GI_WIDEST) - 1;
+    Along along;
+    R end[GI_PARTS];
     for (int k = 0; k < GI_PARTS; k++) {
         int at = i + k * GI_DOUBLES;
         R x, y, z;
         bundle_directions(bundle, any, at, &x, &y, &z);
-        R square = x * x + y * y + z * z;
-        depth[k] = tile_dot(tile->toward, x, y, z);
-        a[k] = tile_dot(u, x, y, z);
-        b[k] = tile_dot(v, x, y, z);
-        /* depth / |d| > 0.4. */
-        *oblique = *oblique | M_NOT(R_LESS(R_OF(0.16) * square, depth[k] * depth[k]) &
-                                    R_LESS(R_OF(0), depth[k]));
-        tame = tame & R_LESS(R_OF(0x1p-60), depth[k]) & R_LESS(depth[k], R_OF(0x1p60));
+        along.depth[k] = tile_dot(tile->toward, x, y, z);
+        along.a[k] = tile_dot(u, x, y, z);
+        along.b[k] = tile_dot(v, x, y, z);
+        *most = R_MAX(*most, along.depth[k]);
         R to;
         if (any) {
             /* Shadow rays end at the apex, so t counts from the other end. */
@@ -197,21 +209,17 @@ static inline void rays_place(Tile *tile, bool any, int i, GiVec u, GiVec v, M *
         } else {
             to = r_load(bundle->t + at);
         }
-        *most = R_MAX(*most, depth[k]);
-        end[k] = to * depth[k] * R_OF(tile->scale);
+        end[k] = to * along.depth[k] * R_OF(tile->scale);
     }
-    P scale = p_of(any ? -1 : 1);
-    if (m_bits(tame) == m_bits(M_OF(true))) {
-        scale = scale / p_rounded(depth);
-    } else { /* not within the range of floats, perhaps */
-        for (int k = 0; k < GI_PARTS; k++) {
-            a[k] = a[k] / depth[k];
-            b[k] = b[k] / depth[k];
-        }
+    P depth = p_rounded(along.depth), scale = p_of(any ? -1 : 1);
+    if ((p_less(p_of(0x1p-60f), depth) & p_less(depth, p_of(0x1p60f))) == all) {
+        scale = scale / depth;
+    } else {
+        rays_divide(&along);
     }
-    P far = p_rounded(end);
-    p_store(tile->a + i, p_rounded(a) * scale);
-    p_store(tile->b + i, p_rounded(b) * scale);
+    P a = p_rounded(along.a) * scale, b = p_rounded(along.b) * scale, far = p_rounded(end);
+    p_store(tile->a + i, a);
+    p_store(tile->b + i, b);
     if (any) {
         P lost = p_of(tile->frustum.lost);
         p_store(tile->far + i, far * p_of(1 + GI_WIDER) + lost);
@@ -220,6 +228,8 @@ static inline void rays_place(Tile *tile, bool any, int i, GiVec u, GiVec v, M *
         p_store(tile->far + i, far * p_of(1 + GI_WIDER));
         p_store(tile->surely + i, far * p_of(1 - GI_WIDER));
     }
+    /* depth / |d| > 0.4 */
+    return p_less(p_fused(a, a, b * b), p_of(5.25f)) == all;
 }
 
 /* Rectangles and depths of the GI_FLOATS packets from k on, whose rays have their places. */
@@ -250,13 +260,13 @@ static inline void packets_begin(Tile *tile, int count) {
 /* Rectangle and depths of the packets. False when a ray is too oblique to the axis. */
 static inline bool tile_packets(Tile *tile, bool any, GiVec u, GiVec v) {
     GiBundle *bundle = tile->bundle;
-    M oblique = M_OF(false);
+    bool narrow = true;
     R deepest = R_OF(0);
     int count = (bundle->count + GI_PACKET_SIZE - 1) / GI_PACKET_SIZE;
     for (int k = 0; k < count; k += GI_FLOATS) {
         int end = k + GI_FLOATS < count ? k + GI_FLOATS : count;
         for (int i = k * GI_PACKET_SIZE; i < end * GI_PACKET_SIZE; i += GI_WIDEST) {
-            rays_place(tile, any, i, u, v, &oblique, &deepest);
+            narrow &= rays_place(tile, any, i, u, v, &deepest);
         }
         packets_enclose(tile, k);
     }
@@ -267,7 +277,7 @@ static inline bool tile_packets(Tile *tile, bool any, GiVec u, GiVec v) {
     most *= any ? 1 - bundle->end : bundle->start;
     Frustum *frustum = &tile->frustum;
     frustum->start = (float)(2 * most * tile->scale) + 2 * frustum->margin + 16 * frustum->lost;
-    return m_bits(oblique) == 0;
+    return narrow;
 }
 
 static inline void tile_refresh_far(Tile *tile) {

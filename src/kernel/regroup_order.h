@@ -34,9 +34,7 @@ static void store(float to[3], GiVec v) {
 /* A frame across the mean direction; u and v are arbitrary. */
 static Axes axes_of(const float *x, const float *y, const float *z, int count) {
     GiVec sum = {0, 0, 0};
-    for (int i = 0; i < count; i += 1 + count / 64) {
-        sum = gi_add(sum, gi_normalize(gi_vec(x[i], y[i], z[i])));
-    }
+    for (int i = 0; i < count; i += 1 + count / 64) sum = gi_add(sum, gi_vec(x[i], y[i], z[i]));
     GiVec w = gi_normalize(sum);
     if (gi_vec_is_zero(w)) w = gi_vec(0, 0, 1);
     GiVec u = gi_normalize(gi_cross(w, fabs(w.x) < 0.6 ? gi_vec(1, 0, 0) : gi_vec(0, 1, 0)));
@@ -93,7 +91,7 @@ static bool order_serves(
         extend(&all_a, packet_a);
         extend(&all_b, packet_b);
     }
-    return APART * (double)sum * leaves <= 25000 * (double)area_of(all_a, all_b);
+    return APART * (double)sum * leaves <= 5000 * (double)area_of(all_a, all_b);
 }
 
 /* Turns points so that x runs along their longest extent. */
@@ -170,15 +168,19 @@ typedef struct Counts {
     uint16_t of[TURNS][MOST_BUCKETS], all[MOST_BUCKETS];
 } Counts;
 
-static void count_buckets(const uint16_t *bucket, int count, int buckets, Counts *counts) {
+/* First the places in a slab become buckets. */
+static void count_buckets(const uint16_t *restrict across, const uint16_t slab[BUCKETS],
+    uint16_t *restrict bucket, int count, int buckets, Counts *counts) {
     for (int k = 0; k < TURNS; k++) {
         memset(counts->of[k], 0, (size_t)buckets * sizeof counts->of[k][0]);
     }
     int i = 0;
     for (; i + TURNS <= count; i += TURNS) {
-        for (int k = 0; k < TURNS; k++) counts->of[k][bucket[i + k]]++;
+        for (int k = 0; k < TURNS; k++) {
+            counts->of[k][bucket[i + k] ^= slab[across[i + k]]]++;
+        }
     }
-    for (int k = 0; i + k < count; k++) counts->of[k][bucket[i + k]]++;
+    for (int k = 0; i + k < count; k++) counts->of[k][bucket[i + k] ^= slab[across[i + k]]]++;
     for (int k = 0; k < buckets; k++) {
         counts->all[k] =
             (uint16_t)(counts->of[0][k] + counts->of[1][k] + counts->of[2][k] + counts->of[3][k]);
@@ -188,7 +190,6 @@ static void count_buckets(const uint16_t *bucket, int count, int buckets, Counts
 /* What order[i] is to be: the values bucket by bucket. The counts become places. */
 static void sort_by_bucket(
     const uint16_t *bucket, int count, int buckets, Counts *counts, uint16_t *order) {
-    count_buckets(bucket, count, buckets, counts);
     for (int i = 0, below = 0; i < buckets; i++) {
         int here = counts->all[i];
         counts->all[i] = (uint16_t)below;
@@ -209,6 +210,19 @@ static void sort_by_bucket(
     for (int k = 0; i + k < count; k++) order[counts->of[k][bucket[i + k]]++] = (uint16_t)(i + k);
 }
 
+/* Slabs of equal numbers, up to a bucket: for each bucket the first of its slab's own, or the last
+ * where these run backwards, so that an exclusive or with a place in the slab gives the bucket. */
+static void find_slabs(const uint16_t *bucket, int count, int slabs, uint16_t slab[BUCKETS]) {
+    enum { APART = 3 }; /* some of the values tell the numbers well enough */
+    uint16_t here[BUCKETS] = {0};
+    for (int i = 0; i < count; i += APART) here[bucket[i]]++;
+    float scale = ((float)slabs - 0.01f) / (float)(count / APART + 1);
+    for (int i = 0, below = 0; i < BUCKETS; below += here[i++]) {
+        int at = (int)((float)(below + here[i] / 2) * scale);
+        slab[i] = (uint16_t)(at * SLAB_BUCKETS + (at % 2 == 0 ? 0 : SLAB_BUCKETS - 1));
+    }
+}
+
 /* Sorts points into groups of so many; order gets a permutation. Returns how the points were
  * turned. */
 static Turn pack(
@@ -220,22 +234,12 @@ static Turn pack(
     int groups = (count + group - 1) / group, most = groups < SLABS ? groups : SLABS;
     float wanted = sqrtf((float)groups * turn.aspect) + 0.5f;
     int slabs = wanted < (float)most ? (int)wanted : most;
-    /* Slabs of equal numbers, up to a bucket. */
-    Counts counts;
     find_buckets(regroup->x, count, x, BUCKETS, across);
-    count_buckets(across, count, BUCKETS, &counts);
-    uint16_t first[BUCKETS], flip[BUCKETS];
-    float slab_scale = ((float)slabs - 0.01f) / (float)count;
-    for (int i = 0, below = 0; i < BUCKETS; i++) {
-        int slab = (int)((float)(below + counts.all[i] / 2) * slab_scale);
-        first[i] = (uint16_t)(slab * SLAB_BUCKETS);
-        flip[i] = slab % 2 == 0 ? 0 : SLAB_BUCKETS - 1;
-        below += counts.all[i];
-    }
+    uint16_t slab[BUCKETS];
+    find_slabs(across, count, slabs, slab);
     find_buckets(regroup->y, count, y, SLAB_BUCKETS, along);
-    for (int i = 0; i < count; i++) {
-        along[i] = (uint16_t)(first[across[i]] + (along[i] ^ flip[across[i]]));
-    }
+    Counts counts;
+    count_buckets(across, slab, along, count, slabs * SLAB_BUCKETS, &counts);
     sort_by_bucket(along, count, slabs * SLAB_BUCKETS, &counts, order);
     return turn;
 }

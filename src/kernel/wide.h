@@ -54,12 +54,14 @@
 
 #if defined(__GNUC__)
 #define NOINLINE __attribute__((noinline))
+#define FLATTEN  __attribute__((flatten)) /* all that it calls becomes part of it */
 static inline void prefetch(const void *p) { __builtin_prefetch(p); }
 static inline int lowest_bit(unsigned bits) { return __builtin_ctz(bits); }
 static inline int lowest_bit_of(uint64_t bits) { return __builtin_ctzll(bits); }
 static inline int bit_count(unsigned bits) { return __builtin_popcount(bits); }
 #else
 #define NOINLINE
+#define FLATTEN
 static inline void prefetch(const void *p) { (void)p; }
 static inline int lowest_bit(unsigned bits) {
     int index = 0;

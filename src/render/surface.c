@@ -426,26 +426,30 @@ static MeshKey mesh_key(const GiWorld *world, GiShapeRef triangle) {
         mesh->triangle_count, key_of(world, triangle, GI_SHAPE_NONE)};
 }
 
-/* The keys of the bundle's rays. Neighbours mostly met the same. */
+/* The keys of the bundle's rays. Of solids and triangles they are looked up without asking whether
+ * the ray before met the same one, which cannot be foretold. */
 static void find_keys(const GiWorld *world, const GiBundle *bundle, uint32_t *keys) {
     uint32_t key = KEY_NOTHING, shape = GI_SHAPE_NONE, instance = GI_SHAPE_NONE;
     MeshKey mesh = {0, 0, 0};
     for (int i = 0; i < bundle->count; i++) {
-        if (bundle->shape[i] != shape || bundle->instance[i] != instance) {
-            shape = bundle->shape[i], instance = bundle->instance[i];
-            GiShapeRef ref = {shape};
-            if (shape == GI_SHAPE_NONE) {
-                key = KEY_NOTHING;
-            } else if (gi_shape_kind(ref) == GI_SHAPE_RECTANGLE) {
-                key = KEY_LIGHT;
-            } else if (gi_shape_kind(ref) != GI_SHAPE_TRIANGLE || instance != GI_SHAPE_NONE) {
-                key = key_of(world, ref, instance);
-            } else {
-                if (shape - mesh.first >= mesh.count) mesh = mesh_key(world, ref);
-                key = mesh.key;
+        GiShapeRef ref = {bundle->shape[i]};
+        GiShapeKind kind = gi_shape_kind(ref);
+        bool unplaced = bundle->instance[i] == GI_SHAPE_NONE;
+        if (unplaced && kind <= GI_SHAPE_CONE) {
+            uint32_t shader = world->shapes.info[kind][gi_shape_index(ref)].shader;
+            keys[i] = shader << KEY_KIND_BITS | (uint32_t)kind;
+        } else if (unplaced && kind == GI_SHAPE_TRIANGLE) {
+            if (ref.bits - mesh.first >= mesh.count) mesh = mesh_key(world, ref);
+            keys[i] = mesh.key;
+        } else {
+            if (ref.bits != shape || bundle->instance[i] != instance) {
+                shape = ref.bits, instance = bundle->instance[i];
+                key = shape == GI_SHAPE_NONE       ? KEY_NOTHING
+                      : kind == GI_SHAPE_RECTANGLE ? KEY_LIGHT
+                                                   : key_of(world, ref, instance);
             }
+            keys[i] = key;
         }
-        keys[i] = key;
     }
 }
 
