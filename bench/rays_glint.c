@@ -52,7 +52,7 @@ static size_t trace_tile(const GiStage *stage, const GiRenderArea *area, int x, 
     size_t hit_count = 0;
     gi_tile_aim(stage, area, &extent, 0.5, 0.5);
     for (int row = 0; row < extent.height; row += GI_BLOCK_HEIGHT) {
-        for (int column = 0; column < extent.width; column += gi_stage_block_width(stage)) {
+        for (int column = 0; column < extent.width; column += GI_BLOCK_WIDTH) {
             int count = gi_tile_trace_block(stage, &extent, column, row);
             for (int i = 0; i < count; i++) hit_count += bundle->shape[i] != GI_SHAPE_NONE;
         }

@@ -570,8 +570,7 @@ static void regrouped(void) {
                     z[i] = kind == 0 ? 2 : kind == 1 ? 1 : (float)d.z;
                     if (kind == 3) x[i] = NAN;
                 }
-                int size = kind % 2 == 0 ? GI_BUNDLE_SIZE : GI_BUNDLE_LEAST;
-                kernel->regroup(&regroup, x, y, z, count, size, 1e9);
+                kernel->regroup(&regroup, x, y, z, count, 1e9);
                 bool seen[GI_REGROUP_LIMIT] = {false};
                 for (int i = 0; i < count; i++) seen[regroup.order[i]] = true;
                 int seen_count = 0;

@@ -122,10 +122,10 @@ typedef struct GiKernel {
     /* Sums of samples to a pixel's three numbers. */
     void (*colors)(const GiVec *sums, int count, int samples, double exposure, float *to);
     GiGammaFn encode; /* as gi_gamma_encode */
-    /* x, y, z: count directions of about one length, at most GI_REGROUP_LIMIT; size: of bundles,
-     * from GI_BUNDLE_LEAST to GI_BUNDLE_SIZE; leaves: of the scene's trees. */
+    /* x, y, z: count directions of about one length, at most GI_REGROUP_LIMIT; leaves: of the
+     * scene's trees. */
     void (*regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z, int count,
-        int size, double leaves);
+        double leaves);
 } GiKernel;
 
 /* The kernels this build has and this machine can run, fastest first; null at the end. */

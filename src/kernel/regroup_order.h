@@ -265,8 +265,9 @@ static void pack_bundle(
     *side = side_of(axes, &turn);
 }
 
-static void GI_KERNEL(regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z,
-    int count, int size, double leaves) {
+static void GI_KERNEL(regroup)(
+    GiRegroup *regroup, const float *x, const float *y, const float *z, int count, double leaves) {
+    const int size = GI_BUNDLE_SIZE;
     const float *a = regroup->a, *b = regroup->b;
     uint16_t *order = regroup->order, *bundles = regroup->bundles;
     GiVec *side = regroup->side;

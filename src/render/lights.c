@@ -116,8 +116,8 @@ void gi_lights_trace(const GiStage *stage, GiVec light, bool parallel) {
     GiLit *lit = &scratch->lit;
     const GiWorld *world = stage->world;
     double leaves = (double)world->leaf_count * (1 + (double)world->spread.instances.count);
-    const int size = world->bundle_size;
-    world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count, size, leaves);
+    const int size = GI_BUNDLE_SIZE;
+    world->kernel->regroup(&scratch->regroup, lit->x, lit->y, lit->z, lit->count, leaves);
     for (int begin = 0; begin < lit->count; begin += size) {
         if (gi_stage_stopped(stage)) return;
         const uint16_t *order = scratch->regroup.order + begin;

@@ -83,7 +83,7 @@ static GiTileSize tile_size(const GiWorld *world, const GiRenderArea *area, size
         GiTileSize size;
         size_t tree_bytes; /* at least */
     } choices[] = {{{GI_TILE_SIDE_LIMIT, GI_TILE_SIDE_LIMIT}, 4 << 20}, {{64, 64}, 2 << 20},
-        {{GI_BLOCK_WIDTH_LIMIT, GI_BLOCK_HEIGHT}, 0}};
+        {{GI_BLOCK_WIDTH, GI_BLOCK_HEIGHT}, 0}};
     double pixels = (double)area->crop_width * area->crop_height / (double)workers;
     for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
         GiTileSize size = choices[i].size;

@@ -166,11 +166,7 @@ typedef struct GiTileExtent {
 } GiTileExtent;
 
 /* A bundle of camera rays: a block of pixels. */
-enum { GI_BLOCK_WIDTH_LIMIT = 64, GI_BLOCK_HEIGHT = GI_BUNDLE_SIZE / GI_BLOCK_WIDTH_LIMIT };
-
-static inline int gi_stage_block_width(const GiStage *stage) {
-    return stage->world->bundle_size / GI_BLOCK_HEIGHT;
-}
+enum { GI_BLOCK_WIDTH = 64, GI_BLOCK_HEIGHT = GI_BUNDLE_SIZE / GI_BLOCK_WIDTH };
 
 /* Readies the camera rays of one sample of every pixel; offsets from 0 to 1. */
 void gi_tile_aim(const GiStage *stage, const GiRenderArea *area, const GiTileExtent *extent,

@@ -117,9 +117,9 @@ static void set_rays(const GiStage *stage, const GiTileExtent *extent, int block
     const GiView *view = gi_stage_view(stage);
     GiTileScratch *scratch = stage->scratch;
     GiBundle *bundle = &scratch->bundle;
-    const int across = gi_stage_block_width(stage) / PACKET_SIDE;
+    const int across = GI_BLOCK_WIDTH / PACKET_SIDE;
     int count = 0;
-    for (int packet = 0; packet < world->bundle_size / GI_PACKET_SIZE; packet++) {
+    for (int packet = 0; packet < GI_PACKET_COUNT; packet++) {
         int packet_x = block_x + packet % across * PACKET_SIDE;
         int packet_y = block_y + packet / across * PACKET_SIDE;
         int end_x = minimum(packet_x + PACKET_SIDE, extent->width);
@@ -172,7 +172,7 @@ static void draw_sample(const GiStage *stage, const GiRenderArea *area, const Gi
     scratch->weighted = scratch->shared = false;
     gi_tile_aim(stage, area, extent, offset_x, offset_y);
     for (int y = 0; y < extent->height; y += GI_BLOCK_HEIGHT) {
-        for (int x = 0; x < extent->width; x += gi_stage_block_width(stage)) {
+        for (int x = 0; x < extent->width; x += GI_BLOCK_WIDTH) {
             if (gi_tile_trace_block(stage, extent, x, y) == 0) return;
             gi_surface_bundle(stage);
         }

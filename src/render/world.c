@@ -244,10 +244,6 @@ static GlintStatus build(
         status = GLINT_ERROR_MEMORY;
     }
     gi_memory_free(memory, placed, meshes * sizeof *placed);
-    /* Where shapes are as small as pixels, each is met by few of many rays: 0.97 of the time on a
-     * million triangles. Elsewhere the large bundles are faster. */
-    const size_t large_tree = 8 << 20;
-    world->bundle_size = world->tree_bytes > large_tree ? GI_BUNDLE_LEAST : GI_BUNDLE_SIZE;
     if (status == GLINT_OK) return status;
     return status == GLINT_ERROR_MEMORY ? gi_error_memory(error)
                                         : gi_error_set(error, status, "cancelled");

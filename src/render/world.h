@@ -21,7 +21,6 @@ typedef struct GiWorld {
     GiTrace trace;
     GiView view;                                                /* of the scene's own camera */
     size_t primitive_count, node_count, leaf_count, tree_bytes; /* of all trees */
-    int bundle_size;                                            /* rays that are traced together */
     GiSpread spread;    /* its lists are empty again once the trees stand */
     uint32_t *original; /* of triangles, see GiTriangles */
     size_t original_count;
