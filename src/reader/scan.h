@@ -5,35 +5,15 @@
 #pragma once
 
 #include "base/array.h"
+#include "reader/pattern.h"
 #include "reader/span.h"
-
-typedef enum GiTokenKind {
-    GI_TOKEN_START, /* `<name`; the name and the value of each attribute follow */
-    GI_TOKEN_END,   /* up to the end of the tag; of <a/> the whole tag */
-    GI_TOKEN_TEXT,
-    GI_TOKEN_NUMBERS, /* an element's whole content when that is up to three numbers, which follow
-                       */
-    GI_TOKEN_SPAN     /* of an attribute */
-} GiTokenKind;
-
-enum { GI_TAPE_ATTRIBUTE_LIMIT = 4, GI_TAPE_NUMBER_LIMIT = 3 };
-
-typedef struct GiToken {
-    uint32_t at; /* in bytes from where the tape begins */
-    uint16_t size;
-    uint8_t kind;  /* GiTokenKind */
-    uint8_t count; /* of attributes or numbers */
-} GiToken;
-
-typedef union GiTapeEntry {
-    GiToken token;
-    double number;
-} GiTapeEntry;
 
 /* What a stretch of the file says. */
 typedef struct GiTape {
     int64_t begin; /* the stretch's offset in the file */
     GI_ARRAY(GiTapeEntry) entries;
+    GiPattern patterns[GI_PATTERN_LIMIT];
+    int pattern_count;
 } GiTape;
 
 typedef enum GiScanStatus {
