@@ -36,6 +36,7 @@ typedef struct Scan {
     GiScanner *scanner;
     const uint8_t *classes;
     const char *bytes, *end, *fault;
+    const char *stop; /* no token begins there or behind it */
     GiTape *tape;
     GiTapeEntry *entry; /* the next of the tape; there is room for a step */
     GiTokenKind last;   /* the token before it */
@@ -64,6 +65,13 @@ void gi_scanner_init(GiScanner *scanner, GiMemory *memory) {
 void gi_scanner_reset(GiScanner *scanner) {
     gi_array_free(scanner->memory, &scanner->open);
     gi_array_free(scanner->memory, &scanner->starts);
+    gi_array_free(scanner->memory, &scanner->closed);
+}
+
+void gi_scanner_begin_inside(GiScanner *scanner, int64_t offset) {
+    scanner->next = offset;
+    scanner->open.count = scanner->starts.count = scanner->closed.count = 0;
+    scanner->begun = scanner->inside = true;
 }
 
 /* ---------------------------------------------------------------- characters */
@@ -284,7 +292,7 @@ static const char *scan_like(Scan *scan, const char *tag) {
     const GiPattern *pattern = &scan->tape->patterns[*guess - 1];
     GiTapeEntry *like = scan->entry++;
     const char *end = scan_holes(scan, pattern, tag);
-    if (end == NULL || end - tag > TOKEN_LIMIT) {
+    if (end == NULL || end > scan->stop || end - tag > TOKEN_LIMIT) {
         scan->entry = like;
         scan->misses++;
         return NULL;
@@ -298,8 +306,24 @@ static const char *scan_like(Scan *scan, const char *tag) {
 
 /* ---------------------------------------------------------------- ends, comments */
 
+/* The end of an element that was open where the scanner began; which, is told later. */
+static const char *scan_foreign_end(Scan *scan, const char *tag) {
+    GiScanner *scanner = scan->scanner;
+    const char *p = tag + 2;
+    while (is(scan, *p, NAME)) p++;
+    if (*p != '>' || p - tag > NAME_LIMIT) return fail(scan, p);
+    GiSpan name = {tag + 2, (size_t)(p - tag) - 2};
+    if (!gi_array_push(scanner->memory, &scanner->closed, name)) {
+        scan->out_of_memory = true;
+        return NULL;
+    }
+    put(scan, GI_TOKEN_END, tag, p + 1);
+    return p + 1;
+}
+
 static const char *scan_end(Scan *scan, const char *tag) {
     GiScanner *scanner = scan->scanner;
+    if (scanner->starts.count == 0) return scan_foreign_end(scan, tag);
     size_t start = scanner->starts.data[scanner->starts.count - 1];
     size_t size = scanner->open.count - start - 1; /* of the name and > */
     if ((size_t)(scan->end - tag) < size + 2) return fail(scan, scan->end);
@@ -370,7 +394,7 @@ static const char *scan_text(Scan *scan, const char *text) {
 
 static const char *scan_one(Scan *scan, const char *p) {
     if (*p == '<' && p[1] == '!') return scan_comment(scan, p);
-    if (scan->scanner->starts.count == 0) { /* behind the root element */
+    if (scan->scanner->starts.count == 0 && !scan->scanner->inside) { /* behind the root element */
         const char *q = skip_blank(scan, p);
         return q > p ? q : fail(scan, q);
     }
@@ -382,18 +406,20 @@ static const char *scan_one(Scan *scan, const char *p) {
     return p[1] == '/' ? scan_end(scan, p) : fail(scan, p + 1);
 }
 
-GiScanStatus gi_scan(GiScanner *scanner, const char *bytes, size_t size, GiTape *tape) {
+GiScanStatus gi_scan(
+    GiScanner *scanner, const char *bytes, size_t size, size_t part, GiTape *tape) {
     Scan scan = {.scanner = scanner,
         .classes = scanner->classes,
         .bytes = bytes,
         .end = bytes + size,
+        .stop = bytes + part,
         .tape = tape};
     const char *p = bytes;
     tape->begin = scanner->next;
     tape->entries.count = 0;
     tape->pattern_count = 0;
     scan.fault = scan.end;
-    while (p < scan.end) {
+    while (p < scan.stop) {
         if (!gi_array_reserve(scanner->memory, &tape->entries, STEP_LIMIT)) return GI_SCAN_MEMORY;
         scan.entry = tape->entries.data + tape->entries.count;
         const char *next = scanner->begun ? scan_one(&scan, p) : scan_prologue(&scan, p);
@@ -405,5 +431,45 @@ GiScanStatus gi_scan(GiScanner *scanner, const char *bytes, size_t size, GiTape 
     scanner->next += p - bytes;
     if (scan.out_of_memory) return GI_SCAN_MEMORY;
     bool whole = scan.fault < scan.end || scan.end - p > TOKEN_LIMIT;
-    return p < scan.end && whole ? GI_SCAN_STRANGE : GI_SCAN_MORE;
+    return p < scan.stop && whole ? GI_SCAN_STRANGE : GI_SCAN_MORE;
+}
+
+/* Closes the elements that the other has closed, but never the root. False when it has others. */
+static bool close_elements(GiScanner *scanner, const GiScanner *next) {
+    for (size_t i = 0; i < next->closed.count; i++) {
+        if (scanner->starts.count < 2) return false;
+        size_t start = scanner->starts.data[scanner->starts.count - 1];
+        size_t size = scanner->open.count - start - 2; /* of the name */
+        GiSpan name = next->closed.data[i];
+        if (name.size != size || !gi_span_equals(name, scanner->open.data + start + 1)) {
+            return false;
+        }
+        scanner->open.count = start;
+        scanner->starts.count--;
+    }
+    return true;
+}
+
+bool gi_scanner_join(GiScanner *scanner, const GiScanner *next) {
+    size_t open_count = scanner->open.count, start_count = scanner->starts.count;
+    bool fits = start_count > 0 && close_elements(scanner, next) &&
+                scanner->open.count < UINT32_MAX / 2 &&
+                gi_array_reserve(scanner->memory, &scanner->open, next->open.count) &&
+                gi_array_reserve(scanner->memory, &scanner->starts, next->starts.count);
+    if (!fits) {
+        scanner->open.count = open_count;
+        scanner->starts.count = start_count;
+        return false;
+    }
+    for (size_t i = 0; i < next->starts.count; i++) {
+        uint32_t start = (uint32_t)scanner->open.count + next->starts.data[i];
+        scanner->starts.data[scanner->starts.count + i] = start;
+    }
+    if (next->open.count > 0) {
+        memcpy(scanner->open.data + scanner->open.count, next->open.data, next->open.count);
+    }
+    scanner->open.count += next->open.count;
+    scanner->starts.count += next->starts.count;
+    scanner->next = next->next;
+    return true;
 }

@@ -5,6 +5,7 @@
  * which keep nothing in slots, and glazing, whose one value waits in its frame. */
 #pragma once
 
+#include "reader/crew.h"
 #include "reader/element.h"
 #include "reader/files.h"
 #include "reader/name.h"
@@ -12,7 +13,6 @@
 #include "reader/report.h"
 #include "reader/scan.h"
 #include "scene/scene.h"
-#include "sched/pool.h"
 
 #include <expat.h>
 
@@ -75,12 +75,13 @@ typedef struct GiReader {
     GiScene *scene;
     GiMemory *memory;
     GiScanner scanner;
-    GiPool *pool;         /* null: scanning has no thread of its own */
-    bool pool_considered; /* whether it needs one */
-    GiTape tape;          /* what is scanned; when it has entries, they wait to be played */
-    GiTape next_tape;     /* what is being scanned meanwhile */
-    GiPlace next_keep;    /* what is kept before the stretch of that tape begins there */
-    GiScanStatus scanned; /* what became of it */
+    GiTape tape;          /* what is scanned, when one thread does all */
+    GiCrew *crew;         /* null: one thread does all */
+    bool crew_considered; /* whether there is need of more */
+    int64_t scan_begin;   /* where the others began to scan, */
+    GiPlace next_keep;    /* and where the window will begin when that is played */
+    int64_t digested;     /* the digest is that of the bytes before it */
+    uint64_t digest;
     GiPath paths[GI_PATTERN_LIMIT];   /* for the patterns of the tape that is played */
     XML_Parser parser;                /* null: the scanner still understands the file */
     int64_t parser_shift;             /* from the parser's offsets to those of the file */
