@@ -120,6 +120,8 @@ static GlintStatus load(GlintScene *scene, GiReaderSource *source, GlintError *e
     return status;
 }
 
+enum { MAPPED_SIZE = 2 * 1024 * 1024 }; /* of a file that is not read but mapped */
+
 GlintStatus glint_scene_load_file(
     GlintScene *scene, const char *path, const GlintMonitor *monitor, GlintError *error) {
     if (scene == NULL || path == NULL) return ARGUMENT(error, "scene or path is null");
@@ -132,7 +134,11 @@ GlintStatus glint_scene_load_file(
         .name = path,
         .total_size = file.size,
         .monitor = monitor};
+    GiFileBytes mapped = {.bytes = NULL};
+    bool large = file.size >= MAPPED_SIZE && !scene->keeps_sources;
+    if (large && gi_file_bytes_map(&mapped, &file)) source.mapped = &mapped;
     status = load(scene, &source, error);
+    gi_file_bytes_free(&mapped, &scene->memory);
     /* The reader only knows that reading failed; the file knows why. */
     if (status == GLINT_ERROR_FILE) gi_file_read_status(&file, error);
     gi_file_read_close(&file);

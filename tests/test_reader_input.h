@@ -21,6 +21,7 @@ typedef struct Input {
     bool fails;
     const char *name; /* null: test.xml */
     int thread_count; /* 0: one */
+    bool mapped;      /* head, which is all, and ends with a zero */
 } Input;
 
 static inline int64_t read_input(void *user, void *buffer, size_t size) {
@@ -74,8 +75,10 @@ static inline Loaded *load_by(Input input, size_t chunk_size, GlintDialect diale
         loaded.status = GLINT_ERROR_MEMORY;
         return &loaded;
     }
+    GiFileBytes bytes = {.bytes = input.head, .size = input.head_size, .capacity = 1};
     GiReaderSource source = {.read = read_input,
         .user = &input,
+        .mapped = input.mapped ? &bytes : NULL,
         .name = input.name != NULL ? input.name : "test.xml",
         .total_size = -1,
         .diagnostic = on_diagnostic,

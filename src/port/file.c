@@ -334,12 +334,35 @@ GlintStatus gi_file_bytes_load(GiFileBytes *file, GiMemory *memory, const char *
         void *mapped = mmap(NULL, (size_t)reader.size, PROT_READ, MAP_PRIVATE, reader.fd, 0);
         if (mapped != MAP_FAILED) {
             file->bytes = mapped;
-            file->size = (size_t)reader.size;
+            file->size = file->mapped = (size_t)reader.size;
         }
     }
     if (file->bytes == NULL) status = read_all(file, memory, &reader, error);
     gi_file_read_close(&reader);
     return status;
+}
+
+bool gi_file_bytes_map(GiFileBytes *file, const GiFileReader *reader) {
+    *file = (GiFileBytes){.bytes = NULL};
+#ifdef MAP_ANONYMOUS
+    if (reader->size <= 0 || (uint64_t)reader->size >= SIZE_MAX) return false;
+    /* The zero is in a page behind the file, or in its last page, a private copy of it then, so
+     * that it stays if the file grows. */
+    size_t size = (size_t)reader->size;
+    int access = PROT_READ | PROT_WRITE;
+    char *bytes = mmap(NULL, size + 1, access, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (bytes == MAP_FAILED) return false;
+    if (mmap(bytes, size, access, MAP_PRIVATE | MAP_FIXED, reader->fd, 0) == MAP_FAILED) {
+        munmap(bytes, size + 1);
+        return false;
+    }
+    bytes[size] = '\0';
+    *file = (GiFileBytes){.bytes = bytes, .size = size, .mapped = size + 1};
+    return true;
+#else
+    (void)reader;
+    return false;
+#endif
 }
 
 void gi_file_bytes_forget(const GiFileBytes *file, size_t begin, size_t end) {
@@ -359,7 +382,7 @@ void gi_file_bytes_free(GiFileBytes *file, GiMemory *memory) {
     if (file->capacity > 0) {
         gi_memory_free(memory, bytes, file->capacity);
     } else if (bytes != NULL) {
-        munmap(bytes, file->size);
+        munmap(bytes, file->mapped);
     }
     *file = (GiFileBytes){.bytes = NULL};
 }

@@ -72,12 +72,17 @@ typedef struct GiFileBytes {
     const char *bytes;
     size_t size;
     size_t capacity; /* of an allocated copy; 0 when the file is mapped */
+    size_t mapped;   /* bytes that are mapped */
 } GiFileBytes;
 
 /* Maps the file, or reads it where that cannot be done (a pipe). monitor may be null. Errors:
  * FILE, MEMORY, CANCELLED; there is nothing to release then. */
 GlintStatus gi_file_bytes_load(GiFileBytes *file, GiMemory *memory, const char *path,
     const GlintMonitor *monitor, GlintError *error);
+
+/* Maps the file that a reader has open, with a zero behind its last byte. False, and nothing has
+ * happened, where that cannot be done. */
+bool gi_file_bytes_map(GiFileBytes *file, const GiFileReader *reader);
 
 /* The bytes [begin, end) are not needed soon; they stay readable. */
 void gi_file_bytes_forget(const GiFileBytes *file, size_t begin, size_t end);

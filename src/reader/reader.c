@@ -2,9 +2,12 @@
  * The outer loop: bytes from the source through the window into the scanner or the parser, whose
  * events go to tree.c. Nothing of the document is kept but the open elements and what is named.
  *
- * Of a large file one thread scans a chunk while this one builds from the chunk before it. The
- * source is read and the window moved by this thread alone, before that or after it; meanwhile both
- * only look at the window's bytes. The user is called back by this thread, too. */
+ * Of a large file other threads scan a chunk while this one builds from the chunk before it. The
+ * source is read and the window moved by this thread alone, before that or after it; meanwhile all
+ * only look at the window's bytes. The user is called back by this thread, too.
+ *
+ * A large file is mapped. Then all bytes are there from the beginning, but the window grows through
+ * them chunk by chunk, and what was played is forgotten. */
 #include "reader/reader.h"
 
 #include "base/digest.h"
@@ -15,8 +18,10 @@
 
 enum {
     CHUNK_SIZE = 256 * 1024,
+    MAPPED_CHUNK_SIZE = 512 * 1024,
     THREAD_SIZE = 2 * 1024 * 1024, /* of a file that is worth a thread */
-    TOKEN_LIMIT = 64 * 1024 * 1024
+    TOKEN_LIMIT = 64 * 1024 * 1024,
+    THREAD_LIMIT = 4 /* building from what they scan keeps the caller's thread busy */
 };
 
 /* ---------------------------------------------------------------- stopping */
@@ -65,7 +70,8 @@ static int64_t parsed_end(const GiReader *reader) {
 
 /* The first byte of which the tree has not been told. */
 static int64_t played_end(const GiReader *reader) {
-    return reader->tape.entries.count > 0 ? reader->tape.begin : parsed_end(reader);
+    const GiReel *waiting = reader->crew != NULL ? reader->crew->scanned : NULL;
+    return waiting != NULL && waiting->count > 0 ? waiting->tapes[0].begin : parsed_end(reader);
 }
 
 /* Makes the window small again, when that is worth moving what stays. */
@@ -73,6 +79,13 @@ static void slide_window(GiReader *reader, size_t more) {
     GiWindow *window = &reader->window;
     int64_t keep = played_end(reader) - GI_WINDOW_KEEP;
     size_t room = window->capacity - window->size;
+    if (reader->source->mapped != NULL) {
+        /* What was before that is forgotten already; counting lines, if it comes to that, brings it
+         * back. */
+        int64_t begin = keep > 4 * MAPPED_CHUNK_SIZE ? keep - 4 * MAPPED_CHUNK_SIZE : 0;
+        if (keep > 0) gi_file_bytes_forget(reader->source->mapped, (size_t)begin, (size_t)keep);
+        return;
+    }
     bool whole = reader->source->sources != NULL;
     if (whole || room >= more || keep - window->base < GI_WINDOW_KEEP) return;
     gi_report_capture(&reader->report, window_end(reader) - GI_WINDOW_CONTEXT);
@@ -85,7 +98,6 @@ static void slide_window(GiReader *reader, size_t more) {
 typedef struct Feed {
     const GiReaderSource *source;
     int64_t total; /* bytes read */
-    uint64_t digest;
     bool ended;
     GlintStatus status; /* nothing is read after a failure */
 } Feed;
@@ -98,28 +110,46 @@ static GlintStatus report_cancelled(GlintError *error) {
     return gi_error_set(error, GLINT_CANCELLED, "cancelled while reading the scene");
 }
 
+/* As much of a mapped file is read when the window shows it. */
+static int64_t show_bytes(GiReader *reader, size_t size) {
+    size_t left = reader->source->mapped->size - reader->window.size;
+    if (size > left) size = left;
+    reader->window.size += size;
+    return (int64_t)size;
+}
+
+/* Reads up to `size` bytes behind the window; negative when that fails. */
+static int64_t read_some(GiReader *reader, size_t size) {
+    const GiReaderSource *source = reader->source;
+    GiWindow *window = &reader->window;
+    if (source->mapped != NULL) return show_bytes(reader, size);
+    int64_t count = source->read(source->user, window->data + window->size, size);
+    if (count < 0 || (uint64_t)count > size) return -1;
+    window->size += (size_t)count;
+    window->data[window->size] = 0; /* where the scanner stops */
+    return count;
+}
+
 static GlintStatus read_bytes(GiReader *reader, Feed *feed, size_t wanted, GlintError *error) {
     const GiReaderSource *source = feed->source;
     const GlintMonitor *monitor = source->monitor;
-    if (!gi_window_reserve(&reader->window, wanted + 1)) return gi_error_memory(error);
+    if (source->mapped == NULL && !gi_window_reserve(&reader->window, wanted + 1)) {
+        return gi_error_memory(error);
+    }
     for (size_t got = 0; got < wanted && !feed->ended;) {
         if (is_cancelled(monitor)) return report_cancelled(error);
         size_t size = wanted - got < CHUNK_SIZE ? wanted - got : CHUNK_SIZE;
-        int64_t count = source->read(source->user, reader->window.data + reader->window.size, size);
-        if (count < 0 || (uint64_t)count > size) {
+        int64_t count = read_some(reader, size);
+        if (count < 0) {
             /* A source that waits may give up because of that. */
             if (is_cancelled(monitor)) return report_cancelled(error);
             return gi_error_set_path(
                 error, GLINT_ERROR_FILE, source->name, "the file cannot be read");
         }
         feed->ended = count == 0;
-        feed->digest =
-            gi_digest(feed->digest, reader->window.data + reader->window.size, (size_t)count);
         got += (size_t)count;
-        reader->window.size += (size_t)count;
-        reader->window.data[reader->window.size] = 0; /* where the scanner stops */
-        feed->total += count;
     }
+    feed->total = window_end(reader);
     if (monitor != NULL && monitor->progress != NULL) {
         double total = (double)source->total_size;
         double fraction = total > 0 ? (double)feed->total / total : -1;
@@ -136,67 +166,78 @@ static GlintStatus read_more(GiReader *reader, Feed *feed, size_t wanted, GlintE
 
 /* ---------------------------------------------------------------- scanning */
 
-/* Gives a large file a thread that scans it; a test's small one as well. When none is to be had,
+/* Brings the digest to the end of the window. */
+static void digest_window(GiReader *reader) {
+    const GiWindow *window = &reader->window;
+    size_t from = (size_t)(reader->digested - window->base);
+    if (from == window->size) return;
+    reader->digest = gi_digest(reader->digest, window->data + from, window->size - from);
+    reader->digested = window_end(reader);
+}
+
+/* Gives a large file threads that scan it; a test's small one as well. When none are to be had,
  * this one does all. */
-static void need_thread(GiReader *reader, const Feed *feed) {
+static void need_crew(GiReader *reader, const Feed *feed) {
     const GiReaderSource *source = feed->source;
     int64_t size = source->total_size > feed->total ? source->total_size : feed->total;
-    if (reader->pool_considered || (size < THREAD_SIZE && source->chunk_size == 0)) return;
-    reader->pool_considered = true;
-    if (gi_pool_size(source->thread_count) > 1) gi_pool_create(reader->memory, 2, &reader->pool);
+    if (reader->crew_considered || (size < THREAD_SIZE && source->chunk_size == 0)) return;
+    reader->crew_considered = true;
+    int count = gi_pool_size(source->thread_count);
+    if (count > THREAD_LIMIT) count = THREAD_LIMIT;
+    if (count > 1) reader->crew = gi_crew_create(reader->memory, count);
 }
 
-static void play_tape(GiReader *reader) {
-    gi_tape_play(reader, &reader->tape);
-    reader->tape.entries.count = 0;
-}
-
-static void scan(GiReader *reader) {
-    const GiWindow *window = &reader->window;
-    size_t from = (size_t)(reader->scanner.next - window->base);
-    reader->scanned = gi_scan(&reader->scanner, (const char *)window->data + from,
-        window->size - from, &reader->next_tape);
-}
-
-/* What another thread does while this one plays: it also counts the lines up to where the window
- * will begin, which is a sixth of this thread's work. */
-static void scan_aside(void *context, size_t begin, size_t end, int worker) {
-    (void)begin, (void)end, (void)worker;
+/* Plays what was scanned and waits. */
+static void play_waiting(void *context) {
     GiReader *reader = context;
-    int64_t keep = reader->scanner.next - GI_WINDOW_KEEP;
+    GiReel *reel = reader->crew != NULL ? reader->crew->scanned : NULL;
+    for (int i = 0; reel != NULL && i < reel->count; i++) gi_tape_play(reader, &reel->tapes[i]);
+    if (reel != NULL) reel->count = 0;
+}
+
+/* What else is to be done with the bytes while they are scanned: the digest, and counting the lines
+ * up to where a window that moves will begin. */
+static void look_aside(void *context) {
+    GiReader *reader = context;
+    digest_window(reader);
+    if (reader->source->mapped != NULL || reader->source->sources != NULL) return;
+    int64_t keep = reader->scan_begin - GI_WINDOW_KEEP;
     if (keep > reader->next_keep.offset) {
         gi_window_advance(&reader->window, &reader->next_keep, keep);
     }
-    scan(reader);
 }
 
-/* Scans what is in the window, while what was scanned before is played. */
-static void scan_and_play(GiReader *reader) {
-    GiWindow *window = &reader->window;
-    reader->next_keep = window->cursor;
-    gi_parallel_begin(reader->pool, 1, 1, scan_aside, reader);
-    play_tape(reader);
-    gi_parallel_end(reader->pool);
-    if (reader->next_keep.offset > window->cursor.offset) window->cursor = reader->next_keep;
-}
-
-/* Scans what is in the window, and plays it now, or the next time, while what follows is scanned.
- * GI_SCAN_MORE only where there is more, or all is done. */
+/* Scans what is new in the window, and plays it now, or the next time, while what follows is
+ * scanned. GI_SCAN_MORE only where there is more, or all is done. */
 static GiScanStatus scan_window(GiReader *reader, const Feed *feed) {
-    need_thread(reader, feed);
-    if (reader->pool != NULL) {
-        scan_and_play(reader);
+    GiWindow *window = &reader->window;
+    GiScanner *scanner = &reader->scanner;
+    const GiFileBytes *mapped = reader->source->mapped;
+    size_t size = mapped != NULL ? mapped->size : window->size;
+    size_t from = (size_t)(scanner->next - window->base);
+    GiScanStatus status;
+    need_crew(reader, feed);
+    if (reader->crew != NULL) {
+        reader->next_keep = window->cursor;
+        reader->scan_begin = scanner->next;
+        status =
+            gi_crew_scan(reader->crew, scanner, window, size, play_waiting, look_aside, reader);
+        if (reader->next_keep.offset > window->cursor.offset) window->cursor = reader->next_keep;
     } else {
-        scan(reader);
+        digest_window(reader);
+        status = gi_scan(scanner, (const char *)window->data + from, size - from,
+            window->size - from, &reader->tape);
     }
-    if (reader->scanned == GI_SCAN_MEMORY) return GI_SCAN_MEMORY;
-    GiTape played = reader->tape;
-    reader->tape = reader->next_tape;
-    reader->next_tape = played;
-    bool done =
-        reader->scanner.next == window_end(reader) && gi_scanner_is_complete(&reader->scanner);
-    GiScanStatus status = feed->ended && !done ? GI_SCAN_STRANGE : reader->scanned;
-    if (reader->pool == NULL || feed->ended || status != GI_SCAN_MORE) play_tape(reader);
+    if (status == GI_SCAN_MEMORY) return GI_SCAN_MEMORY;
+    /* The last token may end behind what the window shows of a mapped file. */
+    if (scanner->next > window_end(reader)) window->size = (size_t)(scanner->next - window->base);
+    bool done = scanner->next == window_end(reader) && gi_scanner_is_complete(scanner);
+    if (feed->ended && !done) status = GI_SCAN_STRANGE;
+    if (reader->crew == NULL) {
+        gi_tape_play(reader, &reader->tape);
+    } else if (feed->ended || status != GI_SCAN_MORE) {
+        play_waiting(reader);
+    }
     return status;
 }
 
@@ -212,13 +253,15 @@ static bool parse_window(GiReader *reader, const Feed *feed, int64_t from) {
         }
         from = reader->scanner.next;
     }
+    digest_window(reader);
     size_t begin = (size_t)(from - reader->window.base);
     return gi_parser_feed(
         reader, reader->window.data + begin, reader->window.size - begin, feed->ended);
 }
 
 static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
-    size_t chunk = feed->source->chunk_size > 0 ? feed->source->chunk_size : CHUNK_SIZE;
+    size_t chunk = feed->source->mapped != NULL ? MAPPED_CHUNK_SIZE : CHUNK_SIZE;
+    if (feed->source->chunk_size > 0) chunk = feed->source->chunk_size;
     bool first = true;
     while (!feed->ended && !reader->stopped) {
         /* As much again as is waiting: a token that spans many chunks is scanned from its start
@@ -226,7 +269,7 @@ static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
         size_t waiting = (size_t)(window_end(reader) - parsed_end(reader));
         size_t wanted = waiting > chunk ? waiting : chunk;
         if (waiting > TOKEN_LIMIT) {
-            play_tape(reader);
+            play_waiting(reader);
             if (reader->stopped) return GLINT_OK;
             gi_report_add(&reader->report, (GiPlace){.offset = parsed_end(reader)}, 1,
                 "what begins here (a comment or a tag) does not end within 64 MiB");
@@ -238,7 +281,7 @@ static GlintStatus parse(GiReader *reader, Feed *feed, GlintError *error) {
         int64_t from = window_end(reader);
         GlintStatus status = read_more(reader, feed, wanted, error);
         if (status != GLINT_OK) {
-            play_tape(reader); /* what is wrong there was there before */
+            play_waiting(reader); /* what is wrong there was there before */
             return reader->stopped ? GLINT_OK : status;
         }
         if (first) gi_window_detect(&reader->window);
@@ -265,6 +308,9 @@ static void open_reader(GiReader *reader, GiScene *scene, const GiReaderSource *
     reader->memory = scene->memory;
     gi_element_index_init(&reader->elements);
     gi_window_init(&reader->window, scene->memory);
+    if (source->mapped != NULL) {
+        reader->window.data = (unsigned char *)(uintptr_t)source->mapped->bytes;
+    }
     gi_scanner_init(&reader->scanner, scene->memory);
     gi_report_init(&reader->report, scene->memory, &reader->window);
     gi_names_init(&reader->names, scene->memory);
@@ -279,10 +325,9 @@ static void open_reader(GiReader *reader, GiScene *scene, const GiReaderSource *
 
 static void close_reader(GiReader *reader) {
     gi_parser_close(reader);
-    gi_pool_destroy(reader->pool);
+    gi_crew_destroy(reader->crew);
     gi_scanner_reset(&reader->scanner);
     gi_array_free(reader->memory, &reader->tape.entries);
-    gi_array_free(reader->memory, &reader->next_tape.entries);
     gi_array_free(reader->memory, &reader->frames);
     gi_array_free(reader->memory, &reader->tags);
     gi_array_free(reader->memory, &reader->cameras);
@@ -291,7 +336,7 @@ static void close_reader(GiReader *reader) {
     gi_names_reset(&reader->strings);
     gi_files_reset(&reader->files, reader->memory);
     gi_report_reset(&reader->report);
-    gi_window_reset(&reader->window);
+    if (reader->source->mapped == NULL) gi_window_reset(&reader->window);
 }
 
 GlintStatus gi_reader_load(
@@ -331,7 +376,8 @@ GlintStatus gi_reader_load(
     if (status == GLINT_OK) scene->dialect = dialect;
     if (noted) {
         scene->files.data[0].size = (uint64_t)feed.total;
-        scene->files.data[0].digest = feed.digest;
+        digest_window(reader);
+        scene->files.data[0].digest = reader->digest;
     }
     if (result != NULL) result->byte_count = feed.total;
     if (source->sources != NULL) {

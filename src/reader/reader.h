@@ -2,6 +2,7 @@
  * From XML to the model, in one pass over a stream. */
 #pragma once
 
+#include "port/file.h"
 #include "reader/files.h"
 #include "reader/source.h"
 #include "scene/scene.h"
@@ -9,6 +10,8 @@
 typedef struct GiReaderSource {
     GlintReadFn read;
     void *user;
+    const GiFileBytes *mapped;    /* null; or the whole file, a zero behind it: nothing is read
+                                     then, and no source may be kept */
     const char *name;             /* for messages; files that the scene names are looked for from
                                      the folder of this path */
     int64_t total_size;           /* bytes, for progress; -1: not known */

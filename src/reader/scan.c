@@ -6,14 +6,22 @@
  * instructions, no document type. */
 #include "reader/scan.h"
 
+#include "math/bytes.h"
 #include "reader/number.h"
 
 #include <string.h>
 
 enum { TOKEN_LIMIT = UINT16_MAX, NAME_LIMIT = 80, DECLARATION_LIMIT = 40 };
 
-/* The most entries of one step of the scanner: a tag, its attributes and its numbers. */
-enum { STEP_LIMIT = 2 + 2 * GI_TAPE_ATTRIBUTE_LIMIT + 1 + GI_TAPE_NUMBER_LIMIT };
+/* The most entries of one step of the scanner: a tag, its attributes and its numbers; or what is in
+ * the holes of a pattern. */
+enum {
+    TAG_ENTRIES = 2 + 2 * GI_TAPE_ATTRIBUTE_LIMIT + 1 + GI_TAPE_NUMBER_LIMIT,
+    LIKE_ENTRIES = 1 + GI_HOLE_LIMIT * (1 + GI_TAPE_NUMBER_LIMIT),
+    STEP_LIMIT = TAG_ENTRIES > LIKE_ENTRIES ? TAG_ENTRIES : LIKE_ENTRIES
+};
+
+enum { GUESS_COUNT = 64, PATIENCE = 64 };
 
 enum {
     NAME_FIRST = 1,
@@ -28,9 +36,15 @@ typedef struct Scan {
     GiScanner *scanner;
     const uint8_t *classes;
     const char *bytes, *end, *fault;
+    const char *stop; /* no token begins there or behind it */
+    GiTape *tape;
     GiTapeEntry *entry; /* the next of the tape; there is room for a step */
     GiTokenKind last;   /* the token before it */
     bool out_of_memory;
+    size_t container;       /* entry of the last start tag whose content is not just numbers, */
+    size_t container_depth; /* and how many elements are open with it; 0: it is closed */
+    int hits, misses;       /* of patterns */
+    uint8_t guesses[GUESS_COUNT]; /* by the hash of the start tag: number of the pattern + 1 */
 } Scan;
 
 void gi_scanner_init(GiScanner *scanner, GiMemory *memory) {
@@ -51,6 +65,13 @@ void gi_scanner_init(GiScanner *scanner, GiMemory *memory) {
 void gi_scanner_reset(GiScanner *scanner) {
     gi_array_free(scanner->memory, &scanner->open);
     gi_array_free(scanner->memory, &scanner->starts);
+    gi_array_free(scanner->memory, &scanner->closed);
+}
+
+void gi_scanner_begin_inside(GiScanner *scanner, int64_t offset) {
+    scanner->next = offset;
+    scanner->open.count = scanner->starts.count = scanner->closed.count = 0;
+    scanner->begun = scanner->inside = true;
 }
 
 /* ---------------------------------------------------------------- characters */
@@ -201,20 +222,118 @@ static const char *scan_start(Scan *scan, const char *tag) {
     if (++p - tag > TOKEN_LIMIT) return fail(scan, tag);
     if (!push_open(scan, tag, (size_t)(name_end - tag))) return NULL;
     const char *value_end = scan_numbers(scan, p);
-    return value_end != NULL ? value_end : p;
+    if (value_end != NULL) return value_end;
+    scan->container = (size_t)(first - scan->tape->entries.data);
+    scan->container_depth = scan->scanner->starts.count;
+    return p;
+}
+
+/* ---------------------------------------------------------------- patterns */
+
+/* Where the pattern of a start tag is noted, if there is one. It depends on the whole tag, or most
+ * of it. Null when that is long, or the end is near. */
+static uint8_t *find_guess(Scan *scan, const char *tag) {
+    if (scan->end - tag < GI_BYTES) return NULL;
+    uint64_t ends = gi_bytes_equal(gi_bytes_load(tag), '>');
+    if (ends == 0) return NULL;
+    int size = __builtin_ctzll(ends);
+    uint64_t first = gi_eight_load(tag), last = first << (size < 8 ? 8 * (8 - size) : 0);
+    if (size > 8) last = gi_eight_load(tag + size - 8) + first * 31;
+    return &scan->guesses[last * UINT64_C(0x9e3779b97f4a7c15) >> 58];
+}
+
+/* The element that is closed now may be the first of many. */
+static void learn_pattern(Scan *scan) {
+    GiTape *tape = scan->tape;
+    size_t first = scan->container, end = (size_t)(scan->entry - tape->entries.data);
+    scan->container_depth = 0;
+    if (tape->pattern_count == GI_PATTERN_LIMIT) return;
+    GiPattern *pattern = &tape->patterns[tape->pattern_count];
+    if (!gi_pattern_learn(pattern, tape->entries.data, first, end)) return;
+    uint8_t *guess = find_guess(scan, scan->bytes + tape->entries.data[first].token.at);
+    if (guess != NULL) *guess = (uint8_t)++tape->pattern_count;
+}
+
+static bool same_bytes(const char *a, const char *b, size_t size) {
+    return gi_span_equals((GiSpan){a, size}, b);
+}
+
+/* What is in the holes of an element like the pattern; null, and the tape is as it was, when it is
+ * not like that. */
+static const char *scan_holes(Scan *scan, const GiPattern *pattern, const char *p) {
+    const char *model = scan->bytes + scan->tape->entries.data[pattern->first].token.at;
+    const GiHole *hole = pattern->holes, *holes_end = hole + pattern->hole_count;
+    size_t from = 0;
+    for (; hole < holes_end; from = (hole++)->end) {
+        size_t size = hole->begin - from;
+        if ((size_t)(scan->end - p) < size || !same_bytes(p, model + from, size)) return NULL;
+        p += size;
+        if (hole->count > 0) {
+            const GiTapeEntry *numbers = scan->entry;
+            p = scan_numbers(scan, p);
+            if (p == NULL || numbers->token.count != hole->count) return NULL;
+        } else {
+            const char *value = p;
+            while (is(scan, *p, VALUE)) p++;
+            put(scan, GI_TOKEN_SPAN, value, p);
+        }
+    }
+    size_t size = pattern->size - from;
+    if ((size_t)(scan->end - p) < size || !same_bytes(p, model + from, size)) return NULL;
+    return p + size;
+}
+
+/* An element like one before; null, and nothing has happened, when it is not. Where few are, it is
+ * not tried for ever. */
+static const char *scan_like(Scan *scan, const char *tag) {
+    if (scan->tape->pattern_count == 0 || scan->misses > scan->hits + PATIENCE) return NULL;
+    const uint8_t *guess = find_guess(scan, tag);
+    if (guess == NULL || *guess == 0) return NULL;
+    const GiPattern *pattern = &scan->tape->patterns[*guess - 1];
+    GiTapeEntry *like = scan->entry++;
+    const char *end = scan_holes(scan, pattern, tag);
+    if (end == NULL || end > scan->stop || end - tag > TOKEN_LIMIT) {
+        scan->entry = like;
+        scan->misses++;
+        return NULL;
+    }
+    like->token = (GiToken){
+        (uint32_t)(tag - scan->bytes), (uint16_t)(*guess - 1), GI_TOKEN_LIKE, pattern->hole_count};
+    scan->last = GI_TOKEN_END;
+    scan->hits++;
+    return end;
+}
+
+/* ---------------------------------------------------------------- ends, comments */
+
+/* The end of an element that was open where the scanner began; which, is told later. */
+static const char *scan_foreign_end(Scan *scan, const char *tag) {
+    GiScanner *scanner = scan->scanner;
+    const char *p = tag + 2;
+    while (is(scan, *p, NAME)) p++;
+    if (*p != '>' || p - tag > NAME_LIMIT) return fail(scan, p);
+    GiSpan name = {tag + 2, (size_t)(p - tag) - 2};
+    if (!gi_array_push(scanner->memory, &scanner->closed, name)) {
+        scan->out_of_memory = true;
+        return NULL;
+    }
+    put(scan, GI_TOKEN_END, tag, p + 1);
+    return p + 1;
 }
 
 static const char *scan_end(Scan *scan, const char *tag) {
     GiScanner *scanner = scan->scanner;
+    if (scanner->starts.count == 0) return scan_foreign_end(scan, tag);
     size_t start = scanner->starts.data[scanner->starts.count - 1];
     size_t size = scanner->open.count - start - 1; /* of the name and > */
     if ((size_t)(scan->end - tag) < size + 2) return fail(scan, scan->end);
     if (!gi_span_equals((GiSpan){tag + 2, size}, scanner->open.data + start + 1)) {
         return fail(scan, tag);
     }
+    put(scan, GI_TOKEN_END, tag, tag + 2 + size);
+    if (scanner->starts.count == scan->container_depth) learn_pattern(scan);
     scanner->open.count = start;
     scanner->starts.count--;
-    put(scan, GI_TOKEN_END, tag, tag + 2 + size);
     return tag + 2 + size;
 }
 
@@ -275,23 +394,32 @@ static const char *scan_text(Scan *scan, const char *text) {
 
 static const char *scan_one(Scan *scan, const char *p) {
     if (*p == '<' && p[1] == '!') return scan_comment(scan, p);
-    if (scan->scanner->starts.count == 0) { /* behind the root element */
+    if (scan->scanner->starts.count == 0 && !scan->scanner->inside) { /* behind the root element */
         const char *q = skip_blank(scan, p);
         return q > p ? q : fail(scan, q);
     }
     if (*p != '<') return scan_text(scan, p);
-    if (is(scan, p[1], NAME_FIRST)) return scan_start(scan, p);
+    if (is(scan, p[1], NAME_FIRST)) {
+        const char *end = scan_like(scan, p);
+        return end != NULL ? end : scan_start(scan, p);
+    }
     return p[1] == '/' ? scan_end(scan, p) : fail(scan, p + 1);
 }
 
-GiScanStatus gi_scan(GiScanner *scanner, const char *bytes, size_t size, GiTape *tape) {
-    Scan scan = {
-        .scanner = scanner, .classes = scanner->classes, .bytes = bytes, .end = bytes + size};
+GiScanStatus gi_scan(
+    GiScanner *scanner, const char *bytes, size_t size, size_t part, GiTape *tape) {
+    Scan scan = {.scanner = scanner,
+        .classes = scanner->classes,
+        .bytes = bytes,
+        .end = bytes + size,
+        .stop = bytes + part,
+        .tape = tape};
     const char *p = bytes;
     tape->begin = scanner->next;
     tape->entries.count = 0;
+    tape->pattern_count = 0;
     scan.fault = scan.end;
-    while (p < scan.end) {
+    while (p < scan.stop) {
         if (!gi_array_reserve(scanner->memory, &tape->entries, STEP_LIMIT)) return GI_SCAN_MEMORY;
         scan.entry = tape->entries.data + tape->entries.count;
         const char *next = scanner->begun ? scan_one(&scan, p) : scan_prologue(&scan, p);
@@ -303,5 +431,45 @@ GiScanStatus gi_scan(GiScanner *scanner, const char *bytes, size_t size, GiTape 
     scanner->next += p - bytes;
     if (scan.out_of_memory) return GI_SCAN_MEMORY;
     bool whole = scan.fault < scan.end || scan.end - p > TOKEN_LIMIT;
-    return p < scan.end && whole ? GI_SCAN_STRANGE : GI_SCAN_MORE;
+    return p < scan.stop && whole ? GI_SCAN_STRANGE : GI_SCAN_MORE;
+}
+
+/* Closes the elements that the other has closed, but never the root. False when it has others. */
+static bool close_elements(GiScanner *scanner, const GiScanner *next) {
+    for (size_t i = 0; i < next->closed.count; i++) {
+        if (scanner->starts.count < 2) return false;
+        size_t start = scanner->starts.data[scanner->starts.count - 1];
+        size_t size = scanner->open.count - start - 2; /* of the name */
+        GiSpan name = next->closed.data[i];
+        if (name.size != size || !gi_span_equals(name, scanner->open.data + start + 1)) {
+            return false;
+        }
+        scanner->open.count = start;
+        scanner->starts.count--;
+    }
+    return true;
+}
+
+bool gi_scanner_join(GiScanner *scanner, const GiScanner *next) {
+    size_t open_count = scanner->open.count, start_count = scanner->starts.count;
+    bool fits = start_count > 0 && close_elements(scanner, next) &&
+                scanner->open.count < UINT32_MAX / 2 &&
+                gi_array_reserve(scanner->memory, &scanner->open, next->open.count) &&
+                gi_array_reserve(scanner->memory, &scanner->starts, next->starts.count);
+    if (!fits) {
+        scanner->open.count = open_count;
+        scanner->starts.count = start_count;
+        return false;
+    }
+    for (size_t i = 0; i < next->starts.count; i++) {
+        uint32_t start = (uint32_t)scanner->open.count + next->starts.data[i];
+        scanner->starts.data[scanner->starts.count + i] = start;
+    }
+    if (next->open.count > 0) {
+        memcpy(scanner->open.data + scanner->open.count, next->open.data, next->open.count);
+    }
+    scanner->open.count += next->open.count;
+    scanner->starts.count += next->starts.count;
+    scanner->next = next->next;
+    return true;
 }

@@ -5,35 +5,15 @@
 #pragma once
 
 #include "base/array.h"
+#include "reader/pattern.h"
 #include "reader/span.h"
-
-typedef enum GiTokenKind {
-    GI_TOKEN_START, /* `<name`; the name and the value of each attribute follow */
-    GI_TOKEN_END,   /* up to the end of the tag; of <a/> the whole tag */
-    GI_TOKEN_TEXT,
-    GI_TOKEN_NUMBERS, /* an element's whole content when that is up to three numbers, which follow
-                       */
-    GI_TOKEN_SPAN     /* of an attribute */
-} GiTokenKind;
-
-enum { GI_TAPE_ATTRIBUTE_LIMIT = 4, GI_TAPE_NUMBER_LIMIT = 3 };
-
-typedef struct GiToken {
-    uint32_t at; /* in bytes from where the tape begins */
-    uint16_t size;
-    uint8_t kind;  /* GiTokenKind */
-    uint8_t count; /* of attributes or numbers */
-} GiToken;
-
-typedef union GiTapeEntry {
-    GiToken token;
-    double number;
-} GiTapeEntry;
 
 /* What a stretch of the file says. */
 typedef struct GiTape {
     int64_t begin; /* the stretch's offset in the file */
     GI_ARRAY(GiTapeEntry) entries;
+    GiPattern patterns[GI_PATTERN_LIMIT];
+    int pattern_count;
 } GiTape;
 
 typedef enum GiScanStatus {
@@ -48,15 +28,24 @@ typedef struct GiScanner {
     GI_ARRAY(char) open;       /* the tags of the open elements, without attributes: <a><b> */
     GI_ARRAY(uint32_t) starts; /* of these tags */
     bool begun;                /* the root element was seen */
+    bool inside;               /* it began somewhere in the root element, before a start tag */
+    GI_ARRAY(GiSpan) closed;   /* then: names of the elements that were open there and are closed */
     uint8_t classes[256];      /* what each byte may be */
 } GiScanner;
 
 void gi_scanner_init(GiScanner *scanner, GiMemory *memory);
 void gi_scanner_reset(GiScanner *scanner);
 
-/* Scans the bytes at scanner->next, as far as they are whole tokens, and appends to the tape, which
- * is emptied before. bytes[size] is readable and zero. */
-GiScanStatus gi_scan(GiScanner *scanner, const char *bytes, size_t size, GiTape *tape);
+/* Begins anew at an offset somewhere in the root element, where a start tag seems to stand. */
+void gi_scanner_begin_inside(GiScanner *scanner, int64_t offset);
+
+/* Scans the bytes at scanner->next, as far as they are whole tokens that begin among the first
+ * `part` of them, and writes the tape anew. bytes[size] is readable and zero. */
+GiScanStatus gi_scan(GiScanner *scanner, const char *bytes, size_t size, size_t part, GiTape *tape);
+
+/* Goes on where one has got that began inside, at this one's next token. False, and nothing has
+ * happened, when the two do not fit together or memory is short. */
+bool gi_scanner_join(GiScanner *scanner, const GiScanner *next);
 
 /* Whether the root element is closed. */
 static inline bool gi_scanner_is_complete(const GiScanner *scanner) {

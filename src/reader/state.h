@@ -5,6 +5,7 @@
  * which keep nothing in slots, and glazing, whose one value waits in its frame. */
 #pragma once
 
+#include "reader/crew.h"
 #include "reader/element.h"
 #include "reader/files.h"
 #include "reader/name.h"
@@ -12,7 +13,6 @@
 #include "reader/report.h"
 #include "reader/scan.h"
 #include "scene/scene.h"
-#include "sched/pool.h"
 
 #include <expat.h>
 
@@ -59,19 +59,32 @@ typedef struct GiDoubtfulGroup {
     GiPlace place;
 } GiDoubtfulGroup;
 
+/* What is done with the elements that are like a pattern of the tape (like.c). */
+typedef struct GiPath {
+    GiContexts contexts; /* where they stand; 0: nothing is known yet */
+    bool known;          /* how they are to be used */
+    const GiElement *element;
+    const GiType *type;
+    unsigned evidence;
+    const GiElement *uses[GI_HOLE_LIMIT]; /* the children with the holes */
+    uint32_t offsets[GI_HOLE_LIMIT];      /* from a child to its hole */
+} GiPath;
+
 typedef struct GiReader {
     const GiReaderSource *source;
     GiScene *scene;
     GiMemory *memory;
     GiScanner scanner;
-    GiPool *pool;         /* null: scanning has no thread of its own */
-    bool pool_considered; /* whether it needs one */
-    GiTape tape;          /* what is scanned; when it has entries, they wait to be played */
-    GiTape next_tape;     /* what is being scanned meanwhile */
-    GiPlace next_keep;    /* what is kept before the stretch of that tape begins there */
-    GiScanStatus scanned; /* what became of it */
-    XML_Parser parser;    /* null: the scanner still understands the file */
-    int64_t parser_shift; /* from the parser's offsets to those of the file */
+    GiTape tape;          /* what is scanned, when one thread does all */
+    GiCrew *crew;         /* null: one thread does all */
+    bool crew_considered; /* whether there is need of more */
+    int64_t scan_begin;   /* where the others began to scan, */
+    GiPlace next_keep;    /* and where the window will begin when that is played */
+    int64_t digested;     /* the digest is that of the bytes before it */
+    uint64_t digest;
+    GiPath paths[GI_PATTERN_LIMIT];   /* for the patterns of the tape that is played */
+    XML_Parser parser;                /* null: the scanner still understands the file */
+    int64_t parser_shift;             /* from the parser's offsets to those of the file */
     GI_ARRAY(GiAttribute) attributes; /* of the start tag that is being handled */
     GiElementIndex elements;
     GiWindow window;
@@ -137,6 +150,17 @@ void gi_reader_out_of_memory(GiReader *reader);
 
 /* ---- tape.c */
 void gi_tape_play(GiReader *reader, const GiTape *tape);
+/* The numbers behind a token, up to three. */
+static inline GiVec gi_tape_vec(const GiTapeEntry *numbers, int count) {
+    return gi_vec(
+        numbers[0].number, count > 1 ? numbers[1].number : 0, count > 2 ? numbers[2].number : 0);
+}
+
+/* ---- like.c */
+/* Takes an element like a pattern, an entry of the tape; bytes are where the tape begins. False,
+ * and nothing has happened, when it must go the usual way. */
+bool gi_like_play(
+    GiReader *reader, const GiTape *tape, const GiTapeEntry *entry, const char *bytes);
 
 /* ---- parser.c */
 /* Makes expat ready to go on where the scanner stopped. False when memory is short. */

@@ -18,11 +18,6 @@ static void play_text(GiReader *reader, GiSpan text, int64_t offset) {
     }
 }
 
-static GiVec read_vec(const GiTapeEntry *numbers, int count) {
-    return gi_vec(
-        numbers[0].number, count > 1 ? numbers[1].number : 0, count > 2 ? numbers[2].number : 0);
-}
-
 /* An element that is a value and nothing else, which most elements are: `<radius>1</radius>`. From
  * behind its start tag; null when it must be taken piece by piece. */
 static const GiTapeEntry *play_value(GiReader *reader, GiSpan tag, const GiTapeEntry *entry,
@@ -30,14 +25,24 @@ static const GiTapeEntry *play_value(GiReader *reader, GiSpan tag, const GiTapeE
     if (entry >= end || entry->token.kind != GI_TOKEN_NUMBERS) return NULL;
     int count = entry->token.count;
     if (end - entry <= count + 1 || entry[count + 1].token.kind != GI_TOKEN_END) return NULL;
-    GiVec value = read_vec(entry + 1, count);
+    GiVec value = gi_tape_vec(entry + 1, count);
     return gi_tree_value(reader, tag, value, count, offset) ? entry + count + 2 : NULL;
 }
 
-void gi_tape_play(GiReader *reader, const GiTape *tape) {
-    if (tape->entries.count == 0) return; /* of an empty file there may be no bytes either */
-    const char *bytes = (const char *)reader->window.data + (tape->begin - reader->window.base);
-    const GiTapeEntry *entry = tape->entries.data, *end = entry + tape->entries.count;
+static void play(GiReader *reader, const GiTape *tape, const GiTapeEntry *entry,
+    const GiTapeEntry *end, const char *bytes);
+
+static void play_like(
+    GiReader *reader, const GiTape *tape, const GiTapeEntry *like, const char *bytes) {
+    if (gi_like_play(reader, tape, like, bytes)) return;
+    GiTapeEntry expanded[GI_PATTERN_ENTRY_LIMIT];
+    const GiPattern *pattern = &tape->patterns[like->token.size];
+    int count = gi_pattern_expand(pattern, tape->entries.data, like, expanded);
+    play(reader, tape, expanded, expanded + count, bytes);
+}
+
+static void play(GiReader *reader, const GiTape *tape, const GiTapeEntry *entry,
+    const GiTapeEntry *end, const char *bytes) {
     while (entry < end && !reader->stopped) {
         GiToken token = (entry++)->token;
         GiSpan text = {bytes + token.at, token.size};
@@ -62,13 +67,25 @@ void gi_tape_play(GiReader *reader, const GiTape *tape) {
         }
         case GI_TOKEN_END: gi_tree_end(reader, offset + token.size); break;
         case GI_TOKEN_NUMBERS:
-            if (!gi_tree_numbers(reader, read_vec(entry, token.count), token.count)) {
+            if (!gi_tree_numbers(reader, gi_tape_vec(entry, token.count), token.count)) {
                 play_text(reader, text, offset);
             }
             entry += token.count;
             break;
         case GI_TOKEN_TEXT:
         case GI_TOKEN_SPAN: play_text(reader, text, offset); break;
+        case GI_TOKEN_LIKE:
+            play_like(reader, tape, entry - 1, bytes);
+            for (int i = 0; i < token.count; i++) entry += 1 + entry->token.count;
+            break;
         }
     }
+}
+
+void gi_tape_play(GiReader *reader, const GiTape *tape) {
+    if (tape->entries.count == 0) return; /* of an empty file there may be no bytes either */
+    const char *bytes = (const char *)reader->window.data + (tape->begin - reader->window.base);
+    for (int i = 0; i < tape->pattern_count; i++) reader->paths[i] = (GiPath){.known = false};
+    const GiTapeEntry *entries = tape->entries.data;
+    play(reader, tape, entries, entries + tape->entries.count, bytes);
 }
