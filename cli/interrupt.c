@@ -5,13 +5,25 @@
 #define _XOPEN_SOURCE 700
 #include "interrupt.h"
 
+#include "status.h"
+
 #include <signal.h>
 #include <stdatomic.h>
 #include <stddef.h>
+#include <unistd.h>
 
 static atomic_int seen_signal;
 
 static void remember(int number) { atomic_store(&seen_signal, number); }
+
+/* Large files are mapped. What another program cuts off from one meanwhile is not there any more,
+ * and nothing can go on without it. */
+static void cut_short(int number) {
+    static const char text[] = "glint: error: a file was cut short while it was read\n";
+    (void)number;
+    if (write(STDERR_FILENO, text, sizeof text - 1) < 0) _exit(CLI_MACHINE);
+    _exit(CLI_INPUT);
+}
 
 void cli_interrupt_install(void) {
     static const int numbers[] = {SIGINT, SIGTERM};
@@ -24,6 +36,8 @@ void cli_interrupt_install(void) {
             continue;
         sigaction(numbers[i], &action, NULL);
     }
+    action.sa_handler = cut_short;
+    sigaction(SIGBUS, &action, NULL);
     /* `glint scenes | head -1` still draws the rest: the pictures matter, the list does not. */
     signal(SIGPIPE, SIG_IGN);
     /* A limit on the size of files then shows as a failed write, which is reported. */

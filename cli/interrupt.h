@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Ctrl-C and SIGTERM: the first asks the program to stop cleanly, the second kills it. */
+ * Ctrl-C and SIGTERM: the first asks the program to stop cleanly, the second kills it. And what
+ * happens when a file that is mapped loses its end. */
 #pragma once
 
 #include <stdbool.h>

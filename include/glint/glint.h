@@ -209,8 +209,10 @@ GLINT_API void glint_scene_destroy(GlintScene *scene);
 
 /* Reads a scene file into an empty scene. Every error of the file is reported through the
  * scene's diagnostic callback; the first is also left in *error. After an error the scene can
- * only be asked for its files and be destroyed. Errors: SCENE, FILE, MEMORY, CANCELLED. monitor may
- * be null. */
+ * only be asked for its files and be destroyed. Large files, and those of meshes, are mapped while
+ * they are read: a program that cuts one short meanwhile ends this one with SIGBUS. With
+ * keep_sources the scene file is not. Errors: SCENE, FILE, MEMORY, CANCELLED. monitor may be null.
+ */
 GLINT_API GlintStatus glint_scene_load_file(
     GlintScene *scene, const char *path, const GlintMonitor *monitor, GlintError *error);
 
