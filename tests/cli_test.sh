@@ -299,23 +299,23 @@ check "the shell sees 130" test $? -eq 130
 # it happens.
 cat >shorten.py <<'PY'
 import subprocess, sys, time
-glint, path = sys.argv[1], "large.xml"
+glint, path = sys.argv[1], "cut.xml"
 ball = "<surface type=\"Sphere\"><center>1 2 3</center><radius>0.5</radius></surface>\n"
 for delay in (0.001, 0.004, 0.008, 0.016, 0.03):
     with open(path, "w") as file:
         file.write("<scene><camera/><image>8 8</image>\n" + 200000 * ball + "</scene>\n")
-    process = subprocess.Popen([glint, "-q", "-o", "large.png", path], stderr=subprocess.PIPE)
+    process = subprocess.Popen([glint, "-q", "-o", "cut.png", path], stderr=subprocess.PIPE)
     time.sleep(delay)
     with open(path, "r+") as file: file.truncate(3000000)
     said = process.communicate()[1].decode()
     if process.returncode not in (0, 1): sys.exit("ended with %d" % process.returncode)
     if process.returncode == 1 and "error" not in said: sys.exit("says " + said)
 PY
-rm -f large.png
+rm -f cut.png
 ls -A >before
 "$python" shorten.py "$glint" >out 2>err
 check "a file that is cut short" test $? -eq 0
-rm -f large.xml large.png
+rm -f cut.xml cut.png
 ls -A >after
 check "a file that is cut short leaves nothing" cmp -s before after
 
