@@ -592,5 +592,40 @@ static void sun_over_floors(void) {
     }
 }
 
+/* Of a bundle of parallel rays each goes through or by a sphere, from `least` to `most` away. */
+static void aim_from_afar(const Fixture *fixture, GiBundle *bundle, GiVec direction, double least,
+    double most, Random *random) {
+    bundle->count = GI_BUNDLE_SIZE;
+    for (int i = 0; i < bundle->count; i++) {
+        GiVec p = nasty_point(fixture, nasty_thing(fixture, random), random);
+        set_any(bundle, i, gi_along(p, direction, -random_real(random, least, most)), 0);
+    }
+}
+
+static void add_sphere(Fixture *fixture, GiVec center, double radius) {
+    GiShapeRef ref;
+    CHECK(gi_scene_add_sphere(&fixture->scene, center, radius, 0, &ref));
+    CHECK(gi_scene_place(&fixture->scene, GI_SHAPE_NONE, ref));
+}
+
+/* Packets are aligned with what is nearly the direction of the rays, which are long. */
+static void sun_along_the_side(void) {
+    static GiBundle bundle;
+    Random random = {43};
+    for (int digits = 3; digits < 14; digits++) {
+        Fixture fixture;
+        fixture_begin(&fixture, GLINT_DIALECT_2018B);
+        for (int k = 0; k < 100; k++) add_sphere(&fixture, random_vec(&random, -1, 1), 0.01);
+        fixture_commit(&fixture, gi_kernel_at(0));
+        GiVec direction = random_unit(&random);
+        bundle.side = gi_along(direction, random_vec(&random, -1, 1), pow(10, -digits));
+        aim_from_afar(&fixture, &bundle, direction, 1e4, 3e4, &random);
+        wrong = 0;
+        check_parallel(&fixture, &bundle, direction, "sun along the side");
+        CHECK_INT(wrong, 0);
+        fixture_end(&fixture);
+    }
+}
+
 const GiTest tests_gate[] = {TEST(few_of_each_kind), TEST(hundred_of_each_kind),
-    TEST(thousands_of_each_kind), TEST(interior_rule), TEST(sun_over_floors), TEST_END};
+    TEST(thousands_of_each_kind), TEST(interior_rule), TEST(sun_over_floors), TEST(sun_along_the_side), TEST_END};

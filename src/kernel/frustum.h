@@ -155,7 +155,10 @@ static inline bool tile_frame(const GiBundle *bundle, bool any, GiVec *u, GiVec 
         GiVec other = fabs(w->x) < 0.6 ? gi_vec(1, 0, 0) : gi_vec(0, 1, 0);
         *u = gi_cross(*w, other);
     }
+    /* Where `side` is nearly w, what is left of it is across only roughly; another step makes it so
+     * to the last bits. */
     *u = gi_normalize(*u);
+    *u = gi_normalize(gi_sub(*u, gi_scale(*w, gi_dot(*u, *w))));
     *v = gi_cross(*w, *u);
     return true;
 }
