@@ -627,5 +627,32 @@ static void sun_along_the_side(void) {
     }
 }
 
+/* A speck in the middle of the scene, where numbers are smallest, and rays that nearly touch it. */
+static void sun_over_a_speck(void) {
+    static GiBundle bundle;
+    Random random = {44};
+    for (int e = 22; e < 34; e++) {
+        Fixture fixture;
+        double radius = ldexp(1, -e);
+        fixture_begin(&fixture, GLINT_DIALECT_2018B);
+        add_sphere(&fixture, gi_vec(0, 0, 0), radius);
+        for (int k = -1; k <= 1; k += 2) add_sphere(&fixture, gi_vec(0.9 * k, 0.9 * k, 0.9 * k), 0);
+        fixture_commit(&fixture, gi_kernel_at(0));
+        GiVec direction = random_unit(&random);
+        bundle.count = GI_BUNDLE_SIZE;
+        bundle.side = gi_vec(0, 0, 0);
+        for (int i = 0; i < bundle.count; i++) {
+            GiVec rim = gi_normalize(gi_cross(direction, random_unit(&random)));
+            GiVec p = gi_scale(rim, radius * (1 + random_real(&random, -1e-4, 1e-4)));
+            set_any(&bundle, i, gi_along(p, direction, -random_real(&random, 0, 0x1p14)), 0);
+        }
+        wrong = 0;
+        check_parallel(&fixture, &bundle, direction, "sun over a speck");
+        CHECK_INT(wrong, 0);
+        fixture_end(&fixture);
+    }
+}
+
 const GiTest tests_gate[] = {TEST(few_of_each_kind), TEST(hundred_of_each_kind),
-    TEST(thousands_of_each_kind), TEST(interior_rule), TEST(sun_over_floors), TEST(sun_along_the_side), TEST_END};
+    TEST(thousands_of_each_kind), TEST(interior_rule), TEST(sun_over_floors),
+    TEST(sun_along_the_side), TEST(sun_over_a_speck), TEST_END};

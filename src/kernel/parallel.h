@@ -10,9 +10,13 @@
  * than 16 roundings, which is less than what boxes and spheres are grown by; corners of triangles,
  * which are not grown, err by less than 32 roundings and twice `error`, and all rectangles are
  * widened by 64. A ray's point is worked out in doubles and rounded once. Directions are the same
- * for all rays to the bit, but across u and v only to 2^-50; rays that begin more than 2^16 away
- * are traced one by one, so that this does not matter. */
+ * for all rays to the bit, but across u and v only to 2^-50, and the exact test rounds as well: of
+ * how far away a ray begins, 64 roundings of doubles are lost. Those that begin more than 2^16 away
+ * are traced one by one, so that this is less than GI_PARALLEL_LOST, by which everything is grown:
+ * next to the centre the tree's own growth is less. */
 #pragma once
+
+#define GI_PARALLEL_LOST 0x1p-31f
 
 /* The rays from i on as points. Bits of those that begin too far away, or nowhere. */
 static inline unsigned rays_place_parallel(Tile *tile, int i, GiVec u, GiVec v) {
@@ -56,6 +60,7 @@ static bool parallel_packets(Tile *tile, GiVec u, GiVec v) {
     }
     packets_begin(tile, count);
     tile->frustum.start = -INFINITY;
+    tile->frustum.margin = GI_PARALLEL_LOST;
     return strange == 0;
 }
 
