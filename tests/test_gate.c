@@ -653,6 +653,36 @@ static void sun_over_a_speck(void) {
     }
 }
 
+static int questions; /* whether to go on */
+
+static bool count_question(const void *context) {
+    (void)context;
+    questions++;
+    return false;
+}
+
+/* Where the unit of length is many times the scene, rays are traced together all the same: one by
+ * one they would ask every now and then whether to go on. */
+static void sun_over_a_tiny_scene(void) {
+    static GiBundle bundle;
+    Random random = {45};
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_2018B);
+    for (int k = 0; k < 20; k++) add_sphere(&fixture, random_vec(&random, -1e-6, 1e-6), 1e-7);
+    fixture_commit(&fixture, gi_kernel_at(0));
+    bundle.side = gi_vec(0, 0, 0);
+    bundle.stop = count_question;
+    questions = 0;
+    GiVec direction = random_unit(&random);
+    aim_from_afar(&fixture, &bundle, direction, 0, 1e-6, &random);
+    bundle.count = 1000; /* not a multiple of a packet's */
+    wrong = 0;
+    check_parallel(&fixture, &bundle, direction, "sun over a tiny scene");
+    CHECK_INT(wrong, 0);
+    CHECK_INT(questions, 0);
+    fixture_end(&fixture);
+}
+
 const GiTest tests_gate[] = {TEST(few_of_each_kind), TEST(hundred_of_each_kind),
     TEST(thousands_of_each_kind), TEST(interior_rule), TEST(sun_over_floors),
-    TEST(sun_along_the_side), TEST(sun_over_a_speck), TEST_END};
+    TEST(sun_along_the_side), TEST(sun_over_a_speck), TEST(sun_over_a_tiny_scene), TEST_END};

@@ -129,7 +129,8 @@ static inline void tile_pad(Tile *tile) {
         bundle->ox[i] = bundle->ox[0];
         bundle->oy[i] = bundle->oy[0];
         bundle->oz[i] = bundle->oz[0];
-        bundle->t_min[i] = 1;
+        /* At the apex, or, where there is none, no farther away than the first. */
+        bundle->t_min[i] = tile->frustum.parallel ? bundle->t_min[0] : 1;
         bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
     }
 }
