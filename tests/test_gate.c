@@ -592,5 +592,97 @@ static void sun_over_floors(void) {
     }
 }
 
+/* Of a bundle of parallel rays each goes through or by a sphere, from `least` to `most` away. */
+static void aim_from_afar(const Fixture *fixture, GiBundle *bundle, GiVec direction, double least,
+    double most, Random *random) {
+    bundle->count = GI_BUNDLE_SIZE;
+    for (int i = 0; i < bundle->count; i++) {
+        GiVec p = nasty_point(fixture, nasty_thing(fixture, random), random);
+        set_any(bundle, i, gi_along(p, direction, -random_real(random, least, most)), 0);
+    }
+}
+
+static void add_sphere(Fixture *fixture, GiVec center, double radius) {
+    GiShapeRef ref;
+    CHECK(gi_scene_add_sphere(&fixture->scene, center, radius, 0, &ref));
+    CHECK(gi_scene_place(&fixture->scene, GI_SHAPE_NONE, ref));
+}
+
+/* Packets are aligned with what is nearly the direction of the rays, which are long. */
+static void sun_along_the_side(void) {
+    static GiBundle bundle;
+    Random random = {43};
+    for (int digits = 3; digits < 14; digits++) {
+        Fixture fixture;
+        fixture_begin(&fixture, GLINT_DIALECT_2018B);
+        for (int k = 0; k < 100; k++) add_sphere(&fixture, random_vec(&random, -1, 1), 0.01);
+        fixture_commit(&fixture, gi_kernel_at(0));
+        GiVec direction = random_unit(&random);
+        bundle.side = gi_along(direction, random_vec(&random, -1, 1), pow(10, -digits));
+        aim_from_afar(&fixture, &bundle, direction, 1e4, 3e4, &random);
+        wrong = 0;
+        check_parallel(&fixture, &bundle, direction, "sun along the side");
+        CHECK_INT(wrong, 0);
+        fixture_end(&fixture);
+    }
+}
+
+/* A speck in the middle of the scene, where numbers are smallest, and rays that nearly touch it. */
+static void sun_over_a_speck(void) {
+    static GiBundle bundle;
+    Random random = {44};
+    for (int e = 22; e < 34; e++) {
+        Fixture fixture;
+        double radius = ldexp(1, -e);
+        fixture_begin(&fixture, GLINT_DIALECT_2018B);
+        add_sphere(&fixture, gi_vec(0, 0, 0), radius);
+        for (int k = -1; k <= 1; k += 2) add_sphere(&fixture, gi_vec(0.9 * k, 0.9 * k, 0.9 * k), 0);
+        fixture_commit(&fixture, gi_kernel_at(0));
+        GiVec direction = random_unit(&random);
+        bundle.count = GI_BUNDLE_SIZE;
+        bundle.side = gi_vec(0, 0, 0);
+        for (int i = 0; i < bundle.count; i++) {
+            GiVec rim = gi_normalize(gi_cross(direction, random_unit(&random)));
+            GiVec p = gi_scale(rim, radius * (1 + random_real(&random, -1e-4, 1e-4)));
+            set_any(&bundle, i, gi_along(p, direction, -random_real(&random, 0, 0x1p14)), 0);
+        }
+        wrong = 0;
+        check_parallel(&fixture, &bundle, direction, "sun over a speck");
+        CHECK_INT(wrong, 0);
+        fixture_end(&fixture);
+    }
+}
+
+static int questions; /* whether to go on */
+
+static bool count_question(const void *context) {
+    (void)context;
+    questions++;
+    return false;
+}
+
+/* Where the unit of length is many times the scene, rays are traced together all the same: one by
+ * one they would ask every now and then whether to go on. */
+static void sun_over_a_tiny_scene(void) {
+    static GiBundle bundle;
+    Random random = {45};
+    Fixture fixture;
+    fixture_begin(&fixture, GLINT_DIALECT_2018B);
+    for (int k = 0; k < 20; k++) add_sphere(&fixture, random_vec(&random, -1e-6, 1e-6), 1e-7);
+    fixture_commit(&fixture, gi_kernel_at(0));
+    bundle.side = gi_vec(0, 0, 0);
+    bundle.stop = count_question;
+    questions = 0;
+    GiVec direction = random_unit(&random);
+    aim_from_afar(&fixture, &bundle, direction, 0, 1e-6, &random);
+    bundle.count = 1000; /* not a multiple of a packet's */
+    wrong = 0;
+    check_parallel(&fixture, &bundle, direction, "sun over a tiny scene");
+    CHECK_INT(wrong, 0);
+    CHECK_INT(questions, 0);
+    fixture_end(&fixture);
+}
+
 const GiTest tests_gate[] = {TEST(few_of_each_kind), TEST(hundred_of_each_kind),
-    TEST(thousands_of_each_kind), TEST(interior_rule), TEST(sun_over_floors), TEST_END};
+    TEST(thousands_of_each_kind), TEST(interior_rule), TEST(sun_over_floors),
+    TEST(sun_along_the_side), TEST(sun_over_a_speck), TEST(sun_over_a_tiny_scene), TEST_END};

@@ -39,10 +39,9 @@ static inline Reach reach_of(const F center[3], const F extent[3]) {
 
 /* As rectangles_of, of bundles whose rays are parallel. */
 static inline unsigned rectangles_across(
-    const Frustum *frustum, int i, const Reach *reach, Rectangles *rectangles) {
-    const F wider = f_of(GI_PARALLEL_WIDER), near = reach->z0 - wider;
+    const Frustum *frustum, int i, const Reach *reach, F wider, Rectangles *rectangles) {
     F a0 = reach->x0 - wider, a1 = reach->x1 + wider, b0 = reach->y0 - wider;
-    F b1 = reach->y1 + wider;
+    F b1 = reach->y1 + wider, near = reach->z0 - wider;
     f_store(rectangles->a0 + i, a0);
     f_store(rectangles->a1 + i, a1);
     f_store(rectangles->b0 + i, b0);
@@ -61,7 +60,9 @@ static inline unsigned rectangles_of(
     const Frustum *frustum, int i, const Reach *reach, Rectangles *rectangles) {
     const F x0 = reach->x0, x1 = reach->x1, y0 = reach->y0, y1 = reach->y1;
     const F z0 = reach->z0, z1 = reach->z1, one = f_of(1);
-    if (frustum->parallel) return rectangles_across(frustum, i, reach, rectangles);
+    if (frustum->parallel) {
+        return rectangles_across(frustum, i, reach, f_of(GI_PARALLEL_WIDER), rectangles);
+    }
     F near_scale = one / z0, far_scale = one / z1;
     F a0 = f_min(x0 * near_scale, x0 * far_scale), a1 = f_max(x1 * near_scale, x1 * far_scale);
     F b0 = f_min(y0 * near_scale, y0 * far_scale), b1 = f_max(y1 * near_scale, y1 * far_scale);

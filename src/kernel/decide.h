@@ -224,8 +224,8 @@ static inline void tile_places(Tile *tile) {
     for (int kind = 0; kind < KIND_COUNT; kind++) {
         tile->places[kind] = (Places){(const char *)tile->tree, 0};
     }
-    if (!tile->any ||
-        tile->frustum.parallel) { /* else it is rarely that more than their boxes is looked at */
+    /* Else it is rarely that more than their boxes is looked at. */
+    if (!tile->any || tile->frustum.parallel) {
         tile->places[GI_SHAPE_SPHERE] = (Places){(const char *)shapes->spheres, sizeof(GiSphere)};
         tile->places[GI_SHAPE_BOX] = (Places){(const char *)shapes->boxes, sizeof(GiBox)};
     }

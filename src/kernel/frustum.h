@@ -129,7 +129,8 @@ static inline void tile_pad(Tile *tile) {
         bundle->ox[i] = bundle->ox[0];
         bundle->oy[i] = bundle->oy[0];
         bundle->oz[i] = bundle->oz[0];
-        bundle->t_min[i] = 1;
+        /* At the apex, or, where there is none, no farther away than the first. */
+        bundle->t_min[i] = tile->frustum.parallel ? bundle->t_min[0] : 1;
         bundle->skip[i] = bundle->skip_instance[i] = GI_SHAPE_NONE;
     }
 }
@@ -155,7 +156,10 @@ static inline bool tile_frame(const GiBundle *bundle, bool any, GiVec *u, GiVec 
         GiVec other = fabs(w->x) < 0.6 ? gi_vec(1, 0, 0) : gi_vec(0, 1, 0);
         *u = gi_cross(*w, other);
     }
+    /* Where `side` is nearly w, what is left of it is across only roughly; another step makes it so
+     * to the last bits. */
     *u = gi_normalize(*u);
+    *u = gi_normalize(gi_sub(*u, gi_scale(*w, gi_dot(*u, *w))));
     *v = gi_cross(*w, *u);
     return true;
 }

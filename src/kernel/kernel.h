@@ -53,10 +53,10 @@ typedef struct GiBundle {
     uint32_t pixel[GI_BUNDLE_ROOM]; /* of camera rays; of others the caller's */
     int count;                      /* 1 to GI_BUNDLE_SIZE */
     GiVec apex;
-    double start, end; /* end: at most 1 */
+    double start, end; /* end: at most 1, unless the rays are parallel */
     /* The rays have their own origins and directions after all. For any: those of an instance,
-     * whose directions are not just apex - origin, to the last bit. For closest: those of a
-     * parallel camera, which bundle_closest does not trace. */
+     * whose directions are not just apex - origin, to the last bit, and parallel ones. For closest:
+     * those of a parallel camera, which bundle_closest does not trace. */
     bool own;
     GiVec side;     /* a direction the packets are aligned with; zero: none known */
     bool without_t; /* closest: nobody needs t; see above */

@@ -10,9 +10,13 @@
  * than 16 roundings, which is less than what boxes and spheres are grown by; corners of triangles,
  * which are not grown, err by less than 32 roundings and twice `error`, and all rectangles are
  * widened by 64. A ray's point is worked out in doubles and rounded once. Directions are the same
- * for all rays to the bit, but across u and v only to 2^-50; rays that begin more than 2^16 away
- * are traced one by one, so that this does not matter. */
+ * for all rays to the bit, but across u and v only to 2^-50, and the exact test rounds as well: of
+ * how far away a ray begins, 64 roundings of doubles are lost. Those that begin more than 2^16 away
+ * are traced one by one, so that this is less than GI_PARALLEL_LOST, by which everything is grown:
+ * next to the centre the tree's own growth is less. */
 #pragma once
+
+#define GI_PARALLEL_LOST 0x1p-31f
 
 /* The rays from i on as points. Bits of those that begin too far away, or nowhere. */
 static inline unsigned rays_place_parallel(Tile *tile, int i, GiVec u, GiVec v) {
@@ -56,15 +60,8 @@ static bool parallel_packets(Tile *tile, GiVec u, GiVec v) {
     }
     packets_begin(tile, count);
     tile->frustum.start = -INFINITY;
+    tile->frustum.margin = GI_PARALLEL_LOST;
     return strange == 0;
-}
-
-/* From rays' ends to the bits of those that are left, after a certain answer to some. */
-static inline unsigned parallel_take(Tile *tile, GiShapeRef ref, int packet, Verdict verdict) {
-    unsigned maybe = verdict.maybe & tile->alive[packet] & ~spared_by(tile, ref, packet);
-    unsigned sure = verdict.sure & maybe;
-    take_sure(tile, ref, packet, sure);
-    return maybe & ~sure;
 }
 
 /* ---------------------------------------------------------------- spheres */
@@ -95,7 +92,7 @@ static inline void parallel_balls(Tile *tile, const GiSphereBlock *block,
         uint32_t lane = pairs->pair[i] / GI_PACKET_COUNT, packet = pairs->pair[i] % GI_PACKET_COUNT;
         Verdict verdict =
             parallel_sphere(tile, spheres, (int)lane, rectangles->near[lane], (int)packet);
-        unsigned rays = parallel_take(tile, block->shape[lane], (int)packet, verdict);
+        unsigned rays = take_certain(tile, block->shape[lane], (int)packet, verdict);
         note_solid(tile, GI_SHAPE_SPHERE, (Test){block->shape[lane], packet, rays});
     }
 }
@@ -119,16 +116,13 @@ static inline unsigned parallel_triangles(const Frustum *frustum, const GiTriang
             b[k] = frame_dot(frustum->axis[1], x, y, z);
             depth[k] = frame_dot(frustum->axis[2], x, y, z);
         }
-        F a0 = f_min(a[0], f_min(a[1], a[2])) - wider, a1 = f_max(a[0], f_max(a[1], a[2])) + wider;
-        F b0 = f_min(b[0], f_min(b[1], b[2])) - wider, b1 = f_max(b[0], f_max(b[1], b[2])) + wider;
-        F near = f_min(depth[0], f_min(depth[1], depth[2])) - wider;
-        f_store(rectangles->a0 + i, a0);
-        f_store(rectangles->a1 + i, a1);
-        f_store(rectangles->b0 + i, b0);
-        f_store(rectangles->b1 + i, b1);
-        f_store(rectangles->near + i, near);
-        f_store(edges->slack + i, f_of(4) * wider * ((a1 - a0) + (b1 - b0) + wider));
-        f_store(edges->blur + i, f_max(depth[0], f_max(depth[1], depth[2])) + wider);
+        const Reach reach = {f_min(a[0], f_min(a[1], a[2])), f_max(a[0], f_max(a[1], a[2])),
+            f_min(b[0], f_min(b[1], b[2])), f_max(b[0], f_max(b[1], b[2])),
+            f_min(depth[0], f_min(depth[1], depth[2])), f_max(depth[0], f_max(depth[1], depth[2]))};
+        F extent = (reach.x1 - reach.x0) + (reach.y1 - reach.y0);
+        bits |= rectangles_across(frustum, i, &reach, wider, rectangles);
+        f_store(edges->slack + i, f_of(4) * wider * (extent + f_of(5) * wider));
+        f_store(edges->blur + i, reach.z1 + wider);
         for (int k = 0; k < 3; k++) {
             int next = (k + 1) % 3;
             F x = b[k] - b[next], y = a[next] - a[k];
@@ -136,10 +130,6 @@ static inline unsigned parallel_triangles(const Frustum *frustum, const GiTriang
             f_store(edges->y[k] + i, y);
             f_store(edges->z[k] + i, f_of(0) - (x * a[k] + y * b[k]));
         }
-        bits |= (f_less_equal(a0, f_of(frustum->a1)) & f_less_equal(f_of(frustum->a0), a1) &
-                    f_less_equal(b0, f_of(frustum->b1)) & f_less_equal(f_of(frustum->b0), b1) &
-                    f_less_equal(near, f_of(frustum->far)))
-                << i;
     }
     return bits & ((1u << count) - 1);
 }
@@ -182,7 +172,7 @@ static inline void parallel_leaf(Tile *tile, Entry entry) {
         uint32_t lane = pairs.pair[i] / GI_PACKET_COUNT, packet = pairs.pair[i] % GI_PACKET_COUNT;
         GiShapeRef ref = gi_shape_ref(GI_SHAPE_TRIANGLE, first + lane);
         Verdict verdict = parallel_triangle(tile, &rectangles, &edges, (int)lane, (int)packet);
-        unsigned rays = parallel_take(tile, ref, (int)packet, verdict);
+        unsigned rays = take_certain(tile, ref, (int)packet, verdict);
         tile->tests[count] = (Test){ref, packet, rays};
         count += rays != 0;
     }

@@ -42,8 +42,8 @@ typedef struct GiPoints {
 typedef struct GiPointLight {
     GiVec position, intensity;
     bool falls; /* off with the square of the distance */
-    /* Infinitely far away: `position` is the unit direction to it. Rays are told apart by where
-     * they begin, by as much as so far away from `center` the place 1 / part is. */
+    /* Infinitely far away: `position` is the unit direction to it. Shadow rays are put in order as
+     * if it stood there 1 / part away from `center`. */
     bool parallel;
     GiVec center;
     double part;
