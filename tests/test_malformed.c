@@ -195,6 +195,24 @@ static void doubtful_groups(void) {
     free(text);
 }
 
+/* Nothing is longer in a mapped file than in one that is read. */
+static void long_comment(void) {
+    size_t begin = strlen(BEGIN "<!--"), size = begin + 150000000, end = strlen("-->" END);
+    char *text = malloc(size + end + 1);
+    CHECK(text != NULL);
+    if (text == NULL) return;
+    memset(text, 'x', size);
+    memcpy(text, BEGIN "<!--", begin);
+    memcpy(text + size, "-->" END, end + 1);
+    for (int threads = 1; threads <= 2; threads++) {
+        Input input = {
+            .head = text, .head_size = size + end, .thread_count = threads, .mapped = true};
+        load_input(input, 0, GLINT_DIALECT_AUTO, NULL);
+        expect_error("1:35: what begins here (a comment or a tag) does not end within 64 MiB");
+    }
+    free(text);
+}
+
 static void cut_anywhere(void) {
     static const char text[] =
         "\xef\xbb\xbf<?xml version='1.0'?>\n" BEGIN
@@ -347,5 +365,5 @@ static void failing_ahead(void) {
 }
 
 const GiTest tests_malformed[] = {TEST(malformed), TEST(formatting), TEST(long_lines),
-    TEST(many_errors), TEST(hostile), TEST(doubtful_groups), TEST(cut_anywhere), TEST(chunks),
-    TEST(failing_allocator), TEST(failing_source), TEST(failing_ahead), TEST_END};
+    TEST(many_errors), TEST(hostile), TEST(doubtful_groups), TEST(long_comment), TEST(cut_anywhere),
+    TEST(chunks), TEST(failing_allocator), TEST(failing_source), TEST(failing_ahead), TEST_END};
