@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* ---------------------------------------------------------------- what is said of wrong files */
 
@@ -153,6 +154,63 @@ static void hostile(void) {
     static const char zero[] = BEGIN "\0" END;
     load_bytes(zero, sizeof zero - 1, 0);
     expect_error("a zero byte");
+}
+
+#define WIDE_GROUP                                                                                 \
+    "<surface type='Group'><translate>1e200 0 0</translate><scale>1e200 1 1</scale>\n"
+#define NO_INVERSE ": the transform of this group cannot be inverted"
+
+/* Groups whose transform is good in some dialects only: those that are not are told with their
+ * places, however far behind them that shows, and those that are cost no time for their lines. */
+static void doubtful_groups(void) {
+    Input input = {.head = BEGIN WIDE_GROUP WIDE_GROUP "</surface>",
+        .filler = "<!-- far -->\n",
+        .tail = WIDE_GROUP "</surface></surface>" END,
+        .filler_count = 60000};
+    input.head_size = strlen(input.head);
+    input.filler_size = strlen(input.filler);
+    input.tail_size = strlen(input.tail);
+    load_input(input, 0, GLINT_DIALECT_2017B, NULL);
+    CHECK_INT(loaded.count, 3);
+    const char *place = loaded.findings;
+    static const char *const places[] = {"1:35" NO_INVERSE, "2:1" NO_INVERSE, "60003:1" NO_INVERSE};
+    for (int i = 0; i < 3 && place != NULL; i++) place = strstr(place, places[i]);
+    CHECK(place != NULL);
+    unload();
+
+    static const char pair[] = WIDE_GROUP WIDE_GROUP "</surface></surface>";
+    enum { COUNT = 20000, PAIR = sizeof pair - 1 };
+    char *text = malloc(sizeof BEGIN + sizeof END + (size_t)COUNT * PAIR), *end = text;
+    CHECK(text != NULL);
+    if (text == NULL) return;
+    end += sprintf(end, "%s", BEGIN);
+    for (int i = 0; i < COUNT; i++, end += PAIR) memcpy(end, pair, PAIR);
+    end += sprintf(end, "%s", END);
+    input = (Input){.head = text, .head_size = (size_t)(end - text), .mapped = true};
+    clock_t start = clock();
+    load_input(input, 0, GLINT_DIALECT_GLINT, NULL);
+    CHECK((double)(clock() - start) / (double)CLOCKS_PER_SEC < test_slowness());
+    CHECK_INT(loaded.status, GLINT_OK);
+    unload();
+    free(text);
+}
+
+/* Nothing is longer in a mapped file than in one that is read. */
+static void long_comment(void) {
+    size_t begin = strlen(BEGIN "<!--"), size = begin + 150000000, end = strlen("-->" END);
+    char *text = malloc(size + end + 1);
+    CHECK(text != NULL);
+    if (text == NULL) return;
+    memset(text, 'x', size);
+    memcpy(text, BEGIN "<!--", begin);
+    memcpy(text + size, "-->" END, end + 1);
+    for (int threads = 1; threads <= 2; threads++) {
+        Input input = {
+            .head = text, .head_size = size + end, .thread_count = threads, .mapped = true};
+        load_input(input, 0, GLINT_DIALECT_AUTO, NULL);
+        expect_error("1:35: what begins here (a comment or a tag) does not end within 64 MiB");
+    }
+    free(text);
 }
 
 static void cut_anywhere(void) {
@@ -307,5 +365,5 @@ static void failing_ahead(void) {
 }
 
 const GiTest tests_malformed[] = {TEST(malformed), TEST(formatting), TEST(long_lines),
-    TEST(many_errors), TEST(hostile), TEST(cut_anywhere), TEST(chunks), TEST(failing_allocator),
-    TEST(failing_source), TEST(failing_ahead), TEST_END};
+    TEST(many_errors), TEST(hostile), TEST(doubtful_groups), TEST(long_comment), TEST(cut_anywhere),
+    TEST(chunks), TEST(failing_allocator), TEST(failing_source), TEST(failing_ahead), TEST_END};

@@ -363,7 +363,6 @@ static bool check_group(GiReader *reader, GiFrame *frame) {
         return false;
     }
     GiDoubtfulGroup doubtful = {frame->index, frame->place};
-    gi_window_locate(&reader->window, &doubtful.place);
     if (!gi_array_push(reader->memory, &reader->doubtful, doubtful)) {
         gi_reader_out_of_memory(reader);
         return false;

@@ -47,6 +47,10 @@ static void locate_places(GiReader *reader) {
     for (size_t i = first; i < reader->frames.count; i++) {
         gi_window_locate(&reader->window, &reader->frames.data[i].place);
     }
+    for (; reader->doubtful_located < reader->doubtful.count; reader->doubtful_located++) {
+        GiDoubtfulGroup *group = &reader->doubtful.data[reader->doubtful_located];
+        gi_window_locate(&reader->window, &group->place);
+    }
     for (int i = 0; i < GI_SLOT_COUNT; i++) {
         if (gi_reader_is_given(reader, (GiSlot)i)) {
             gi_window_locate(&reader->window, &reader->slots[i].place);

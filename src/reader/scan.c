@@ -11,7 +11,12 @@
 
 #include <string.h>
 
-enum { TOKEN_LIMIT = UINT16_MAX, NAME_LIMIT = 80, DECLARATION_LIMIT = 40 };
+enum {
+    TOKEN_LIMIT = UINT16_MAX,
+    NAME_LIMIT = 80,
+    DECLARATION_LIMIT = 40,
+    COMMENT_LIMIT = 1024 * 1024
+};
 
 /* The most entries of one step of the scanner: a tag, its attributes and its numbers; or what is in
  * the holes of a pattern. */
@@ -337,7 +342,10 @@ static const char *scan_end(Scan *scan, const char *tag) {
     return tag + 2 + size;
 }
 
+/* Long ones are left to expat, in mapped files as in others: the reader bounds what may wait for
+ * its end. */
 static const char *scan_comment(Scan *scan, const char *p) {
+    const char *begin = p;
     for (int i = 2; i < 4; i++) {
         if (p[i] != '-') return fail(scan, p + i);
     }
@@ -345,7 +353,8 @@ static const char *scan_comment(Scan *scan, const char *p) {
         while (*p != '-' && is(scan, *p, TEXT)) p++;
         if (*p == '-') {
             if (p[1] != '-') continue;
-            return p[2] == '>' ? p + 3 : fail(scan, p + 2);
+            if (p[2] != '>') return fail(scan, p + 2);
+            return p - begin > COMMENT_LIMIT ? fail(scan, begin) : p + 3;
         }
         if (*p == '<' || *p == '&' || *p == ']') continue;
         p = (unsigned char)*p < 0x80 ? fail(scan, p) : skip_wide(scan, p);

@@ -96,6 +96,7 @@ typedef struct GiReader {
     GI_ARRAY(char) tags;
     GI_ARRAY(GiCamera) cameras; /* the named ones */
     GI_ARRAY(GiDoubtfulGroup) doubtful;
+    size_t doubtful_located; /* so many of them have a line */
     GiSlotValue slots[GI_SLOT_COUNT];
     uint64_t given;                       /* a bit per slot */
     GiVec row_defaults[GI_ELEMENT_LIMIT]; /* of the table's rows */
