@@ -92,7 +92,8 @@ static void count_bytes(const GiWindow *window, int64_t offset, GiPlace *place) 
     const unsigned char *limit = window->data + window->size, *line_start = NULL;
     int64_t lines = count_byte(p, end, '\n');
     if (lines > 0) {
-        for (line_start = end; line_start[-1] != '\n';) line_start--;
+        /* A mapped file may be another one by now. */
+        for (line_start = end; line_start > p && line_start[-1] != '\n';) line_start--;
         place->line += lines;
     }
     for (const unsigned char *q = p; (q = memchr(q, '\r', (size_t)(end - q))) != NULL;) {
