@@ -122,8 +122,8 @@ typedef struct GiKernel {
     /* Sums of samples to a pixel's three numbers. */
     void (*colors)(const GiVec *sums, int count, int samples, double exposure, float *to);
     GiGammaFn encode; /* as gi_gamma_encode */
-    /* x, y, z: count directions of about one length, at most GI_REGROUP_LIMIT; leaves: of the
-     * scene's trees. */
+    /* x, y, z: count directions, at most GI_REGROUP_LIMIT, of about one length, or the order is
+     * the worse for it; leaves: of the scene's trees. */
     void (*regroup)(GiRegroup *regroup, const float *x, const float *y, const float *z, int count,
         double leaves);
 } GiKernel;

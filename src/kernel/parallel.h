@@ -141,13 +141,8 @@ static inline Verdict parallel_triangle(
     Verdict verdict = {0, 0};
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
         int i = packet * GI_PACKET_SIZE + j;
-        P a = p_load(tile->a + i), b = p_load(tile->b + i), side[3];
-        for (int k = 0; k < 3; k++) {
-            side[k] = p_fused(p_of(edges->x[k][lane]), a,
-                p_fused(p_of(edges->y[k][lane]), b, p_of(edges->z[k][lane])));
-        }
-        P least = p_min(side[0], p_min(side[1], side[2]));
-        P most = p_max(side[0], p_max(side[1], side[2]));
+        P a = p_load(tile->a + i), b = p_load(tile->b + i), least, most;
+        edges_sides(edges, lane, a, b, &least, &most);
         unsigned maybe = p_less_equal(zero - slack, least) | p_less_equal(most, slack);
         unsigned sure = (p_less(slack, least) | p_less(most, zero - slack)) &
                         p_less(deepest, p_load(tile->surely + i));

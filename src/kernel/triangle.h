@@ -186,6 +186,17 @@ typedef struct Closeness {
     P of[GI_PACKET_SIZE / GI_WIDEST];
 } Closeness;
 
+/* The least and the greatest of the values that a triangle's edges have at some rays. */
+static inline void edges_sides(const Edges *edges, int lane, P a, P b, P *least, P *most) {
+    P side[3];
+    for (int k = 0; k < 3; k++) {
+        side[k] = p_fused(p_of(edges->x[k][lane]), a,
+            p_fused(p_of(edges->y[k][lane]), b, p_of(edges->z[k][lane])));
+    }
+    *least = p_min(side[0], p_min(side[1], side[2]));
+    *most = p_max(side[0], p_max(side[1], side[2]));
+}
+
 /* What is certain of one triangle and the rays of one packet. */
 static inline Verdict triangle_verdict(const Tile *tile, const Rectangles *rectangles,
     const Edges *edges, int lane, int packet, Closeness *closeness) {
@@ -196,13 +207,8 @@ static inline Verdict triangle_verdict(const Tile *tile, const Rectangles *recta
     Verdict verdict = {0, 0};
     for (int j = 0; j < GI_PACKET_SIZE; j += GI_WIDEST) {
         int i = packet * GI_PACKET_SIZE + j;
-        P a = p_load(tile->a + i), b = p_load(tile->b + i), side[3];
-        for (int k = 0; k < 3; k++) {
-            side[k] = p_fused(p_of(edges->x[k][lane]), a,
-                p_fused(p_of(edges->y[k][lane]), b, p_of(edges->z[k][lane])));
-        }
-        P least = p_min(side[0], p_min(side[1], side[2]));
-        P most = p_max(side[0], p_max(side[1], side[2]));
+        P a = p_load(tile->a + i), b = p_load(tile->b + i), least, most;
+        edges_sides(edges, lane, a, b, &least, &most);
         unsigned maybe = p_less_equal(zero - slack, least) | p_less_equal(most, slack);
         unsigned sure = p_less(slack, least) | p_less(most, zero - slack);
         P close = p_fused(p_of(edges->closeness[0][lane]), a,

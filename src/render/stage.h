@@ -195,8 +195,8 @@ bool gi_surface_probes(const GiWorld *world, const GiShader *shader);
 /* Adds the light of all lights to all points, and forgets the points. */
 void gi_lights_add(const GiStage *stage);
 
-/* Traces the shadow rays of the lit to a point light, in an order of the kernels' liking, and fills
- * in which of them arrive. Less is done when it is to stop. */
+/* Traces the shadow rays of the lit to a point light, or in one direction (parallel), in an order
+ * of the kernels' liking, and fills in which of them arrive. Less is done when it is to stop. */
 void gi_lights_trace(const GiStage *stage, GiVec light, bool parallel);
 
 /* Whether the kernels know the shader's formula; *gloss is then made ready for them. */
